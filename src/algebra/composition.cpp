@@ -40,7 +40,7 @@ class HornerScheme {
     }
     const SeriesSpace& of_outer = outer[0].space();
     factors_.reserve(inner.size());
-    // Linear factors come last, for the last ones are those of most nodes.
+    // Linear factors come last, because most nodes multiply by the last factors.
     for (const bool takes_linear : {false, true}) {
       for (std::size_t v = 0; v < inner.size(); ++v) {
         if (is_linear(inner[v]) != takes_linear) continue;
@@ -87,7 +87,7 @@ class HornerScheme {
     P* const node = nodes_.data() + places_[static_cast<std::size_t>(depth)];
     node[0] = coefficients_[monomial];
     if (depth == degree_) return node;
-    const int highest = highest_ - depth;  // degree that the node needs
+    const int highest = highest_ - depth;  // highest degree that the node needs
     const std::size_t size = space_.first(highest + 1);
     std::fill(node + 1, node + size, P(T(0)));
     for (std::size_t f = last_factor; f < factors_.size(); ++f) {
@@ -106,8 +106,8 @@ class HornerScheme {
     return node;
   }
 
-  /// node += child times y for the first coefficients of the child and the linear part of y, of
-  /// which little may be there, as of a single variable.
+  /// node += child times y, where only the first coefficients of the child are needed and y has a
+  /// linear part of few terms, as a single variable has.
   void add_linear_product(std::size_t count, const P* child, const T* y, P* node) const {
     for (std::size_t i = 0; i < raised_.size(); ++i) {
       const T& coefficient = y[space_.linear_index(i)];
@@ -123,12 +123,12 @@ class HornerScheme {
   }
 
   const SeriesSpace& space_;
-  int degree_;   ///< of the outer map
-  int highest_;  ///< degree of the result that is formed
+  int degree_;   ///< degree of the outer map
+  int highest_;  ///< highest degree of the result that is formed
   std::vector<Factor> factors_;
-  std::vector<const std::uint32_t*> raised_;  ///< by inner variable, see SeriesSpace
-  std::vector<P> coefficients_;               ///< of the outer map, by monomial
-  std::vector<std::size_t> places_;           ///< in nodes_, by depth
+  std::vector<const std::uint32_t*> raised_;  ///< by inner variable, see SeriesSpace::raised
+  std::vector<P> coefficients_;               ///< coefficients of the outer map, by monomial
+  std::vector<std::size_t> places_;           ///< places in nodes_, by depth
   std::vector<P> nodes_;
 };
 
@@ -152,7 +152,7 @@ std::vector<Series<T>> compose_up_to(const std::vector<Series<T>>& outer,
       done += count;
     };
     if constexpr (!std::is_same_v<T, double>) {
-      // Scalars in the place of vectors gain nothing from more lanes.
+      // Where scalars take the place of vectors, more lanes gain nothing.
       take(std::integral_constant<int, 2>{});
     } else if (left <= 2) {
       take(std::integral_constant<int, 2>{});

@@ -8,7 +8,7 @@ double composition_multiply_adds(std::size_t variables, int degree, const Series
   double total = 0;
   const int deepest = std::min(degree, inner.order());
   for (int k = 1; k <= deepest; ++k) {
-    // The cost of one product of a node by a variable's series.
+    // The cost of one product of a node by the series of one variable.
     const int highest = inner.order() - k + 1;
     double product = static_cast<double>(inner.first(highest + 1)) - 1;
     for (int d = 2; d <= highest && k < deepest; ++d) {

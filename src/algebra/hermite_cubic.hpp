@@ -4,14 +4,14 @@
 
 namespace hamjet {
 
-/// Factors of (position, velocity) at the start and at the end of an interval in the cubic through
-/// them, and in its derivative.
+/// The weights of (position, velocity) at the start and at the end of an interval in the cubic
+/// through these four, and in its derivative.
 struct HermiteWeights {
   std::array<double, 4> position;
   std::array<double, 4> velocity;
 };
 
-/// At the part s, from 0 to 1, of an interval of a length:
+/// The weights at the fraction s, from 0 to 1, of an interval of length h:
 ///
 ///   (1 + 2 s) (1 - s)^2,  s (1 - s)^2 h,  s^2 (3 - 2 s),  s^2 (s - 1) h .
 inline HermiteWeights hermite_weights(double length, double s) {

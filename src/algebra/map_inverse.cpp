@@ -9,7 +9,8 @@
 namespace hamjet {
 namespace {
 
-/// The rows of a map that are not linear, without their linear parts, and where they stand.
+/// The rows of a map that are not linear, without their linear parts, and the indices of these
+/// rows.
 template <class T>
 struct NonlinearRows {
   std::vector<Series<T>> parts;

@@ -8,9 +8,10 @@
 
 namespace hamjet {
 
-/// A series whose value and variables are told in other units. The factors take numbers into these;
-/// a coefficient is multiplied by the value's and divided by that of each variable, as often as it
-/// stands in the monomial. `of_variables` has one for each variable.
+/// A series whose value and variables are given in other units. The factors convert numbers into
+/// these units: a coefficient is multiplied by the factor of the value and divided by that of each
+/// variable, as often as the variable stands in the monomial. `of_variables` has one factor for
+/// each variable.
 template <class T>
 Series<T> in_other_units(Series<T> u, const T& of_value, std::span<const T> of_variables) {
   const SeriesSpace& space = u.space();
@@ -25,7 +26,7 @@ Series<T> in_other_units(Series<T> u, const T& of_value, std::span<const T> of_v
   return u;
 }
 
-/// The same of a map, in place: each of its values has a factor of its own.
+/// Converts a map in place; each component has a factor of its own.
 template <class T>
 void tell_in_other_units(std::span<Series<T>> map, std::span<const T> of_values,
                          std::span<const T> of_variables) {

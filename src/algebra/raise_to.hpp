@@ -2,7 +2,7 @@
 
 namespace hamjet {
 
-/// Raises a maximum to the value. NaN is the largest of all and, once there, stays.
+/// Raises a maximum to the value. A NaN counts as the largest of all and stays.
 inline void raise_to(double& largest, double value) {
   if (largest == largest && !(value <= largest)) largest = value;
 }

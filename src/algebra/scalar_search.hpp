@@ -11,21 +11,22 @@
 
 #include "hamjet/error.hpp"
 
-// Searches along a line by Boost, whose routines return whatever they hold when their evaluations
-// are used up, or when the function is no number. These look, and say so.
+// Searches along a line by Boost's routines. These return whatever they hold when their evaluations
+// are used up, or when the function is NaN; the functions here check for both and throw.
 
 namespace hamjet {
 
-/// A place and the function's value there.
+/// A place, and the value of the function there.
 struct PlaceAndValue {
   double place = 0;
   double value = 0;
 };
 
-/// The root of a continuous function between two places, in either order, at which it has
-/// different signs or is zero, to so many bits of the place, by Alefeld, Potra and Shi's
-/// Algorithm 748. `what` names the search in messages. Throws Error(numerical) if both signs are
-/// the same, if a value is no finite number, or if so many evaluations do not find the root.
+/// The root of a continuous function between two places, given in either order, at which the
+/// function has different signs or is zero. The root is found to this number of bits of the place,
+/// by Alefeld, Potra and Shi's Algorithm 748. `what` names the search in messages. Throws
+/// Error(numerical) if both signs are the same, if a value is not finite, or if the root is not
+/// found within the number of evaluations.
 template <class Function>
 double root_between(std::string_view what, const Function& function, PlaceAndValue a,
                     PlaceAndValue b, int bits, std::uintmax_t most_evaluations = 200) {
@@ -49,7 +50,8 @@ double root_between(std::string_view what, const Function& function, PlaceAndVal
   const auto [low, high] = boost::math::tools::toms748_solve(
       [&](double place) { return finite(place, function(place)); }, a.place, b.place, a.value,
       b.value, boost::math::tools::eps_tolerance<double>(bits), evaluations);
-  // Where the place is 0 itself no bits of it agree, and the bracket shrinks to nothing.
+  // Where the place is 0 itself, no bits of the bracket's ends agree, and the bracket shrinks to
+  // nothing.
   const bool is_found = boost::math::tools::eps_tolerance<double>(bits)(low, high) ||
                         high - low <= std::ldexp(b.place - a.place, -bits);
   if (!is_found) {
@@ -60,10 +62,10 @@ double root_between(std::string_view what, const Function& function, PlaceAndVal
   return low + (high - low) / 2;
 }
 
-/// The place and value of a minimum between two places, to so many bits of the place (no more than
-/// half of the digits: a minimum is flat), by Brent's method: the lowest that was found where the
-/// function has several, or where the evaluations are used up. Throws Error(numerical) if a value
-/// is no number.
+/// The place and value of a minimum between two places, by Brent's method, to this number of bits
+/// of the place (no more than half of the digits, for a function is flat at its minimum). Where the
+/// function has several minima, or the evaluations are used up, the lowest place that was found is
+/// returned. Throws Error(numerical) if a value is NaN.
 template <class Function>
 PlaceAndValue minimum_between(std::string_view what, const Function& function, double a, double b,
                               int bits, std::uintmax_t most_evaluations = 100) {

@@ -11,7 +11,7 @@
 namespace hamjet {
 namespace {
 
-/// Beyond this a single series takes half a gigabyte, and the space itself several.
+/// With more monomials a single series takes half a gigabyte, and the space itself several.
 constexpr double most_monomials = 5e7;
 
 std::string text(const SeriesSpace& space) {
@@ -44,7 +44,7 @@ class SeriesSpace::ScheduleBuilder {
   }
 
  private:
-  /// The powers of each variable are multiplied with each other.
+  /// In uncoupled variables only powers of the same variable are multiplied.
   ProductSchedule build_uncoupled(int degree) {
     ProductSchedule schedule;
     const auto power = [&](int d, std::size_t variable) {
@@ -71,11 +71,13 @@ class SeriesSpace::ScheduleBuilder {
     return blocked_ > 0 ? block_size(static_cast<std::size_t>(m)) : 1;
   }
 
-  /// Adds the blocks of inner degree m with all exponents of the outer variables from `variable` on
-  /// that add up to `left`, the first one falling first.
+  /// Adds the blocks of inner degree m, for all exponents of the outer variables from `variable` on
+  /// that add up to `left`, in order of falling exponent of the first of them.
   void add_outputs(ProductSchedule& schedule, int degree, int m, std::size_t variable, int left) {
     if (variable == outer_) {
-      if (left == 0) add_output(schedule, degree, m);  // without outer variables all is inner
+      if (left == 0)
+        add_output(schedule, degree,
+                   m);  // without outer variables, all degrees belong to the inner ones
       return;
     }
     const int least = variable + 1 == outer_ ? left : 0;
@@ -85,8 +87,9 @@ class SeriesSpace::ScheduleBuilder {
     }
   }
 
-  /// Offset of the block with these outer exponents, `degree` with the inner ones: its first
-  /// monomial, where the first of the inner variables has all of their degree.
+  /// Offset of the block with these outer exponents, where `degree` counts the inner exponents too.
+  /// It is the index of the block's first monomial, in which the first inner variable has all of
+  /// the inner degree.
   std::uint32_t offset(const std::vector<int>& outer, int degree) const {
     std::size_t rank = space_.first(degree);
     int left = degree;
@@ -141,7 +144,8 @@ class SeriesSpace::ScheduleBuilder {
   const SeriesSpace& space_;
   std::size_t blocked_;
   std::size_t outer_;
-  std::vector<int> exponents_;  ///< of the outer variables, of the block that is being added
+  /// Exponents of the outer variables in the block that is being added.
+  std::vector<int> exponents_;
   std::vector<int> part_;
   std::vector<int> rest_;
 };
@@ -191,7 +195,8 @@ SeriesSpace::SeriesSpace(std::size_t variables, int order, bool is_uncoupled)
 }
 
 void SeriesSpace::set_before() {
-  // C(left - 1 + after, after) from C(m, 0) = 1 and C(m + 1, k) = C(m, k) + C(m, k - 1).
+  // The binomials C(left - 1 + after, after), from C(m, 0) = 1 and C(m + 1, k) = C(m, k) + C(m, k -
+  // 1).
   const std::size_t row = static_cast<std::size_t>(order_) + 1;
   before_.assign(variables_ * row, 0);
   for (std::size_t i = variables_; i-- > 0;) {
@@ -203,9 +208,9 @@ void SeriesSpace::set_before() {
   }
 }
 
-/// Lists the monomials of a degree. Where variables are coupled, the next one takes one from the
-/// last exponent before the last variable that is not zero, and gives it, with all that the last
-/// variable has, to the one after.
+/// Lists the monomials of a degree. With coupled variables, the next monomial is found so: the last
+/// exponent that is not zero, the last variable's aside, falls by one; this one and the whole
+/// exponent of the last variable go to the variable after it.
 void SeriesSpace::list_monomials(int degree) {
   if (is_uncoupled_ && degree > 0) {
     for (std::size_t v = 0; v < variables_; ++v) {
@@ -259,7 +264,8 @@ std::span<const std::uint32_t> SeriesSpace::raised(std::size_t variable) const {
   std::call_once(is_raised_, [&] {
     raised_.resize(variables_ * count);
     for (std::size_t k = 0; k < count; ++k) {
-      // Only what is left behind a variable before x_i grows with its exponent.
+      // Of the counts of monomials before this one, only those of variables before x_i grow with
+      // its exponent.
       const int raised_degree = degree(k) + 1;
       std::size_t rank = first(raised_degree);
       int left = degree(k);

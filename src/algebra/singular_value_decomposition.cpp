@@ -8,7 +8,7 @@ namespace hamjet {
 SingularValueDecomposition decompose_by_singular_values(const Matrix<double>& matrix) {
   const Eigen::JacobiSVD<Matrix<double>> decomposition(matrix,
                                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // Without success Eigen leaves its values as the memory was.
+  // Where Eigen has no success, its result holds uninitialised memory.
   if (decomposition.info() != Eigen::Success) {
     throw Error(ErrorKind::numerical,
                 "singular values: an entry of the matrix is no finite number");

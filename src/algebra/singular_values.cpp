@@ -13,13 +13,13 @@ namespace hamjet {
 
 template <class T>
 Vector<T> singular_values(const Matrix<T>& matrix) {
-  // Pivoting first is for matrices that are not square; to compile it takes longer than all else
-  // here.
+  // Pivoting first is meant for matrices that are not square, and would take longer to compile than
+  // the rest of this file.
   if (matrix.rows() != matrix.cols()) {
     throw Error(ErrorKind::usage, "singular values: the matrix must be square");
   }
   const Eigen::JacobiSVD<Matrix<T>, Eigen::NoQRPreconditioner> decomposition(matrix);
-  // Without success Eigen leaves its values as the memory was.
+  // Where Eigen has no success, its result holds uninitialised memory.
   if (decomposition.info() != Eigen::Success) {
     return Vector<T>::Constant(matrix.rows(), std::numeric_limits<T>::quiet_NaN());
   }

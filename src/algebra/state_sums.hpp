@@ -5,14 +5,14 @@
 
 namespace hamjet {
 
-/// A state and a deviation from it, or two deviations, number by number.
+/// The sum, number by number, of a state and a deviation from it, or of two deviations.
 inline std::vector<double> state_sum(std::vector<double> state,
                                      const std::vector<double>& deviation) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] += deviation[i];
   return state;
 }
 
-/// The deviation of a state from another.
+/// The deviation of the first state from the second.
 inline std::vector<double> state_difference(std::vector<double> state,
                                             const std::vector<double>& from) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] -= from[i];

@@ -9,9 +9,9 @@
 
 namespace hamjet {
 
-/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix, of which the lower half is read.
-/// `what` names it in messages. Throws Error(numerical) if the iteration does not end, which it
-/// does of every matrix of finite numbers.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix, whose lower half alone is read.
+/// `what` names the matrix in messages. Throws Error(numerical) if the iteration does not end,
+/// which does not happen for finite numbers.
 template <class Matrix>
 Eigen::SelfAdjointEigenSolver<Matrix> symmetric_eigenvalues(std::string_view what,
                                                             const Matrix& matrix) {

@@ -13,10 +13,10 @@
 namespace hamjet {
 namespace {
 
-/// A chart does not exist where an angle or a ratio vanishes; below this part of its whole size it
-/// is too near to that for series of any use.
+/// A chart does not exist where a certain angle or ratio vanishes. Below this fraction of its full
+/// range the chart is too near to such a place for its series to be of use.
 constexpr double least_part = 0.01;
-/// The same as an angle.
+/// This limit as an angle in degrees.
 constexpr double least_angle_deg = least_part * 180 / boost::math::constants::pi<double>();
 
 template <class Real>
@@ -108,8 +108,8 @@ PlaneState<T> in_plane(const Vector<T>& x, const Vector<T>& v, const Vector<T>& 
   return {dot(x, f), dot(x, g), dot(v, f), dot(v, g)};
 }
 
-/// Axes f and g in the plane with the normal (angular momentum) whose x axis is carried from the
-/// reference plane by the shortest turn. With P = tan(i/2) sin h and Q = tan(i/2) cos h,
+/// Axes f and g in the plane whose normal is the angular momentum; the x axis of the reference
+/// plane is carried to f by the shortest turn. With P = tan(i/2) sin h and Q = tan(i/2) cos h,
 ///
 ///   f = (1 - P^2 + Q^2, 2 P Q, -2 P) / (1 + P^2 + Q^2) ,
 ///   g = (2 P Q, 1 + P^2 - Q^2, 2 Q) / (1 + P^2 + Q^2) .

@@ -8,8 +8,8 @@
 namespace hamjet {
 
 /// The states carried along the flow by times that vanish at the chief, by one step of a Gauss
-/// method: its end is a polynomial in the step of no higher degree than the series', which a method
-/// of s stages has exactly up to the degree 2 s, its order.
+/// method. The end of the step is needed as a polynomial in the step of no higher degree than the
+/// series'; a method of s stages is exact up to its order, degree 2 s.
 template <class Real>
 SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
                                  const Series<Real>& time) {
@@ -17,7 +17,7 @@ SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<
   FlowProblem<Real> flow;
   flow.system = crossing;
   flow.space = space;
-  // Of a flow that goes on from a jet they are no more than counted.
+  // The variables of a flow that goes on from a jet are only counted.
   flow.variables.assign(space->variables(), 0);
   flow.duration = Real(1);
   flow.symmetry = FlowSymmetry::none;

@@ -9,14 +9,15 @@
 
 namespace hamjet {
 
-/// An orbit about a zonal field in units of its start's distance, mu = 1.
+/// An orbit about a zonal field, in units in which its initial distance is 1 and mu = 1.
 struct ChiefOrbit {
   ZonalGravity field;
   SixNumbers<double> start;
-  double period = 0;  ///< of Kepler's ellipse
+  double period = 0;  ///< period of Kepler's ellipse
 };
 
-/// The orbit of elements (lengths in km, angles in degrees) in the Earth's J2 and J3.
+/// The orbit with these elements (lengths in km, angles in degrees) in the field of the Earth's J2
+/// and J3.
 inline ChiefOrbit orbit_of(double a, double e, double i, double node, double pericentre,
                            double true_anomaly, double J2 = 1.0826267e-3, double J3 = -2.53e-6) {
   const double mu = 398600.4415;

@@ -13,9 +13,9 @@
 
 namespace hamjet {
 
-/// The chief's own units of a chart's coordinates, made of its distance r from the centre and the
-/// angular momentum L = sqrt(mu r) of a circle there: r, L/r, L, sqrt(L) of a pair of elements, and
-/// 1 of an angle. All are 1 in canonical units whose length is that distance.
+/// The units of a chart's coordinates that suit the chief, made of its distance r from the centre
+/// and the angular momentum L = sqrt(mu r) of a circle there: r, L/r, L, sqrt(L) for a pair of
+/// elements, and 1 for an angle. All are 1 in canonical units whose unit of length is r.
 inline std::array<double, 6> coordinate_units(ChartName chart, double distance, double mu) {
   const double action = std::sqrt(mu * distance);
   const double momentum = action / distance;
@@ -35,7 +35,7 @@ inline std::array<double, 6> coordinate_units(ChartName chart, double distance, 
   return {distance, distance, distance, momentum, momentum, momentum};
 }
 
-/// A map whose values and variables are told in these units.
+/// A map whose values and variables are given in these units.
 inline FlowJet<Extended> in_units(FlowJet<Extended> map, std::span<const double> of_values,
                                   std::span<const double> of_variables) {
   const auto factors = [](std::span<const double> units) {
@@ -47,12 +47,13 @@ inline FlowJet<Extended> in_units(FlowJet<Extended> map, std::span<const double>
   return map;
 }
 
-/// The chief's own units of a flow box's polynomials, whose sections are of a chart: the
-/// coefficients of one degree can be compared once variables and values are in these.
+/// The units of a flow box's polynomials that suit the chief, for sections in one chart.
+/// Coefficients of one degree can be compared once variables and values are in these units.
 struct FlowBoxUnits {
   FlowBoxUnits(ChartName section, double distance, double mu) {
     const std::array<double, 6> units = coordinate_units(section, distance, mu);
-    // The difference of the periods, or of the energies in the chief's own, has no unit.
+    // The relative difference of periods (or of energies, in the chief's unit of energy) has no
+    // unit.
     variables.push_back(1);
     values.push_back(distance * std::sqrt(distance / mu));
     const bool ignores_node = section == ChartName::nodal;

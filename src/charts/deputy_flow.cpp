@@ -99,7 +99,7 @@ void DeputyPredictor::predict(std::span<const SixNumbers<double>> initial,
       const IntegrationClock clock;
       const MapEvaluator& evaluator = flow_.evaluators_[degree - 1];
       evaluator.evaluate(points_, {results_[0], results_[1], results_[2], results_[3]});
-      // Degree 0 is what deviations are counted from.
+      // Degree 0 is the chief itself, from which deviations are counted.
       for (std::size_t h = degree; h < 3; ++h) {
         std::fill(results_[h + 1].begin(), results_[h + 1].end(), 0);
       }
@@ -140,7 +140,7 @@ void DeputyPredictor::predict_lower(std::span<const std::size_t> deputies,
   for (std::size_t j = 0; j < deputies.size(); j += block) {
     const std::size_t some = std::min(block, deputies.size() - j);
     for (std::size_t k = 0; k < some; ++k) carried[k] = carried_[deputies[j + k]];
-    // What the degrees share is in all of them, so that the highest are taken off.
+    // The shares of the highest degrees are taken off the values, which contain all degrees.
     for (std::size_t h = 0; h < lower[j].size(); ++h) {
       for (std::size_t k = 0; k < some; ++k) {
         for (std::size_t c = 0; c < values; ++c) {

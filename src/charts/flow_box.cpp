@@ -22,7 +22,7 @@ SixNumbers<Real> constants_of(const SixNumbers<Series<Real>>& z) {
   return {z[0][0], z[1][0], z[2][0], z[3][0], z[4][0], z[5][0]};
 }
 
-/// The steady motion from an energy and the coordinates of a section in elements.
+/// The steady motion that belongs to an energy and the coordinates of a section in elements.
 template <class Real, class T>
 SteadyMotion<T> steady_motion(const FlowBoxMap<Real>& map, const T& energy,
                               const SixNumbers<T>& z) {
@@ -98,7 +98,8 @@ FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartNam
   flow_.system = time_scaled(zonal_gravity(field));
   flow_.space = space;
   flow_.symmetry = FlowSymmetry::none;
-  // The initial jet says what each variable moves; for the sizes of lines all count as positions.
+  // Which states each variable moves follows from the initial jet; where sizes of lines are chosen,
+  // all variables count as positions.
   for (std::size_t k = 0; k < space->variables(); ++k) flow_.variables.push_back(k % 3);
   flow_.initial_jet = FlowJet<Real>{z[0],
                                     z[1],
@@ -112,8 +113,8 @@ FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartNam
 
 namespace {
 
-/// The map of states on the start's section that have come to z, near the chief, in flights of
-/// these times: they are carried on to the section through the chief there.
+/// The map of states that started on the start's section and have come, after flights of these
+/// times, to states z near the chief. They are carried on to the section through the chief there.
 template <class Real>
 FlowBoxMap<Real> map_of_flights(const ZonalGravity& field, const SharedSystem& crossing,
                                 std::shared_ptr<const FlowSection<Real>> start,
@@ -122,7 +123,7 @@ FlowBoxMap<Real> map_of_flights(const ZonalGravity& field, const SharedSystem& c
   const auto end =
       std::make_shared<const FlowSection<Real>>(field, start->chart().name(), constants_of(z));
   SixNumbers<Series<Real>> c = end->chart().coordinates(z);
-  // Each iteration of Newton's method with the chief's rate gains a degree.
+  // Each iteration of Newton's method with the chief's rate makes one more degree right.
   for (int i = 0; i < z[0].order(); ++i) {
     Series<Real> left = (end->chief()[0] - c[0]) / end->rate();
     left[0] = Real(0);

@@ -17,10 +17,11 @@ namespace {
 
 constexpr double infinitesimal = 4 * std::numeric_limits<double>::epsilon();
 /// A search ends by a last step along the straight line through its last two points where the
-/// product of what both miss is below this: the bend of what is searched is of the order of 1.
+/// product of their misses is below this number. The curvature of the function that is searched is
+/// of the order of 1.
 constexpr double straight = 1e-17;
 
-/// What goes by beside the polynomials.
+/// The numbers that bypass the polynomials.
 enum Carried : std::size_t {
   time_since_section,
   energy,
@@ -89,7 +90,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     Matrix<double> result(variables(), 6);
     const double slope = section.is_bound() ? -1.5 / section.energy() : 1 / section.energy_unit();
     result.row(0) = slope * by_state;
-    // A state is carried back along the flow until its angle is the chief's.
+    // A state is carried back along the flow until its angle equals the chief's.
     const Eigen::Matrix<double, 6, 1> rates = coordinates * field;
     for (std::size_t k = 0; k < section.places().size(); ++k) {
       const auto place = static_cast<Eigen::Index>(section.places()[k]);
@@ -118,7 +119,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     for (const std::size_t place : section.places()) {
       result.col(column(place)) = by_variables.col(column(place));
     }
-    // The values are turned by the steady motion before they are coordinates.
+    // The steady motion turns the values before they are used as coordinates.
     const SteadyMotion<double> steady = map_.steady(map_.start->energy(), map_.start->chief());
     const auto turn = [&](std::size_t pair, double angle) {
       const Eigen::Matrix<double, 6, 1> q = result.col(column(pair));
@@ -146,16 +147,16 @@ class FlowBoxDeputyFlow : public DeputyFlow {
 
     /// The search for the time at which a lane's angle is the chief's.
     struct Search {
-      SixNumbers<double> base;         ///< what the polynomial in time is about
-      double until_base = 0;           ///< time from the deputy to there
-      double time = 0;                 ///< from there
-      SixNumbers<double> coordinates;  ///< at that time
-      double angle = 0;                ///< then, less the chief's
-      double rate = 0;                 ///< about that of the angle
-      double least_angle = 1;          ///< that was found
+      SixNumbers<double> base;         ///< state about which the polynomial in time is expanded
+      double until_base = 0;           ///< time from the deputy to that state
+      double time = 0;                 ///< time from that state
+      SixNumbers<double> coordinates;  ///< coordinates at that time
+      double angle = 0;                ///< angle at that time, minus the chief's
+      double rate = 0;                 ///< rate of the angle, approximately
+      double least_angle = 1;          ///< least angle that was found
       int iterations = 0;
       bool is_over = false;
-      bool has_moved = false;  ///< the base, since the last expansion
+      bool has_moved = false;  ///< the base has moved since the last expansion
     };
 
     double angle_of(const SixNumbers<double>& coordinates) const {
@@ -168,22 +169,22 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       search.rate = rate_of(search.coordinates);
     }
 
-    /// Goes on by the secant method until the angle vanishes, or to the end of what the lane's
-    /// polynomial reaches.
+    /// Continues by the secant method until the angle vanishes, or to the end of the interval in
+    /// which the lane's polynomial holds.
     void go_on(Search& search, std::size_t lane) const {
       constexpr int most_iterations = 100;
       search.has_moved = false;
       while (!search.is_over && !search.has_moved) {
         double change = -search.angle / search.rate;
         const bool is_lost = !std::isfinite(change) || ++search.iterations == most_iterations;
-        // Where rounding moves the angle to and fro, it stands still.
+        // Where rounding alone moves the angle back and forth, the search stops.
         const bool is_rounding = std::abs(search.angle) <= 256 * infinitesimal &&
                                  std::abs(search.angle) >= search.least_angle / 2;
         search.least_angle = std::min(search.least_angle, std::abs(search.angle));
         search.is_over = is_lost || is_rounding || std::abs(search.angle) <= infinitesimal;
         const double wanted = search.time + change;
         const double time = search.is_over ? 0 : taylor.within_reach(lane, wanted);
-        // Where the field is not finite, nothing is within reach.
+        // Where the field is not finite, no time is within reach.
         if (is_lost || (!search.is_over && time == 0 && wanted != 0)) {
           search.coordinates.fill(std::numeric_limits<double>::quiet_NaN());
           search.is_over = true;
@@ -202,7 +203,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         const bool is_usable = secant > 0.2 * about && secant < 5 * about;
         search.rate = is_usable ? secant : about;
         if (time == wanted && is_usable && std::abs(search.angle * last_angle) <= straight) {
-          const double rest = -search.angle / (search.angle - last_angle);  // in such changes
+          // The number of such changes that are left.
+          const double rest = -search.angle / (search.angle - last_angle);
           search.time += rest * change;
           for (std::size_t i = 0; i < 6; ++i) {
             const double moved = search.coordinates[i] - last[i];
@@ -227,7 +229,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       }
       bool is_over = false;
       while (!is_over) {
-        // The angle's own rate departs from the one that is known by its perturbations.
+        // Perturbations make the true rate of the angle differ from the known rate by a small
+        // fraction.
         constexpr double margin = 1.01;
         std::array<double, block> wanted{};
         for (std::size_t lane = 0; lane < searches.size(); ++lane) {
@@ -248,7 +251,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
 
     bool is_angle(std::size_t place) const { return flow.map_.start->chart().is_angle(place); }
 
-    /// About the rate of the angle: Kepler's, times what perturbations make of the chief's.
+    /// An approximate rate of the angle: Kepler's rate times the ratio of the chief's rate to
+    /// Kepler's.
     double rate_of(const SixNumbers<double>& z) const { return rate_share * keplerian_rate(z); }
 
     double keplerian_rate(const SixNumbers<double>& z) const {
@@ -312,7 +316,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       }
     }
 
-    /// The state on the end's section, of what was carried there and the polynomials' values.
+    /// The state on the end's section, from the numbers that bypassed the polynomials and from the
+    /// polynomials' values.
     SixNumbers<double> state_on_section(const SixNumbers<double>& carried,
                                         std::span<const double> values) {
       const FlowSection<double>& section = *flow.map_.end;
@@ -333,8 +338,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       return state;
     }
 
-    /// The state of the end's section of an energy, by the secant method on the momentum of the
-    /// angle; false if there is none near the chief's.
+    /// Finds the state of this energy on the end's section, by the secant method on the momentum of
+    /// the angle. Returns false if there is no such state near the chief's.
     bool find_state(double wanted, SixNumbers<double> z, SixNumbers<double>& state) {
       constexpr int most_iterations = 40;
       const FlowSection<double>& section = *flow.map_.end;
@@ -350,8 +355,9 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         state = section.chart().state(z);
         const double excess = energy_of(state) - wanted;
         if (!std::isfinite(excess)) return false;
-        // The energy is a difference of two numbers as large as the kinetic one, whose rounding the
-        // chart's own adds to: in the end it moves to and fro.
+        // The energy is a difference of two numbers as large as the kinetic energy, and its
+        // rounding adds to that of the chart: close to the root, rounding alone moves it back and
+        // forth.
         const double size = (state[3] * state[3] + state[4] * state[4] + state[5] * state[5]) / 2 +
                             std::abs(wanted);
         const bool is_rounding =

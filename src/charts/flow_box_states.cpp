@@ -12,8 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// A section's variables u, the time since it and the ignored coordinate's difference, of states
-/// about the chief's.
+/// For states about the chief's: the section's variables u, the time since the section, and the
+/// difference in the ignored coordinate.
 struct SectionEntry {
   std::vector<Series<double>> variables;
   Series<double> time;
@@ -32,7 +32,8 @@ SectionEntry entry_to(const FlowSection<double>& section, const ZonalGravity& fi
   const SharedSystem crossing = time_scaled_first_order(zonal_gravity(field));
   SectionEntry entry{{}, Series<double>(space), Series<double>(space)};
   SixNumbers<Series<double>> c = section.chart().coordinates(z);
-  // Newton's method with the chief's rate, as in FlowBoxPropagation: a degree an iteration.
+  // Newton's method with the chief's rate, as in FlowBoxPropagation: each iteration makes one more
+  // degree right.
   for (int i = 0; i < order; ++i) {
     Series<double> left = (section.chief()[0] - c[0]) / section.rate();
     left[0] = 0;
@@ -59,7 +60,7 @@ std::vector<Series<double>> flow_box_coordinates(const ZonalGravity& field,
                                                  const FlowBoxMap<double>& map) {
   const FlowSection<double>& end = *map.end;
   const int order = map.time.order();
-  // From section to section.
+  // The flight from section to section.
   const SteadyMotion<Series<double>> steady = map.steady();
   const SpacePointer& space = map.time.space_pointer();
   const auto constant = [&](std::size_t i) { return Series<double>(space, end.chief()[i]); };
@@ -74,7 +75,8 @@ std::vector<Series<double>> flow_box_coordinates(const ZonalGravity& field,
   const SectionEntry entry = entry_to(*map.start, field, order);
   std::vector<Series<double>> arrived = compose(without_constants(values), entry.variables);
   std::vector<Series<double>> result = {entry.time - arrived[0]};
-  // The energy is the start's; its unit, the chief's period there, is the end's too.
+  // The energy is that of the start. Its unit, the chief's period at the start, serves at the end
+  // too.
   result.push_back(entry.variables[0]);
   for (std::size_t k = 0; k < end.places().size(); ++k) result.push_back(arrived[k + 1]);
   if (end.ignored()) result.push_back(entry.ignored + arrived.back());
@@ -90,7 +92,7 @@ FlowMap<double> flow_box_jet(const ZonalGravity& field, const FlowBoxMap<double>
                                   constant(3), constant(4), constant(5)};
   for (std::size_t k = 0; k < end.places().size(); ++k) c[end.places()[k]] += arrived[k + 2];
   if (end.ignored()) c[*end.ignored()] += arrived.back();
-  // The energy of its variable, about the chief's own at the end.
+  // The energy that belongs to its variable, about the chief's own energy at the end.
   const Series<double> energy = map.start->is_bound()
                                     ? end.energy() * pow(arrived[1] + 1.0, -2.0 / 3)
                                     : arrived[1] * map.start->energy_unit() + end.energy();

@@ -13,8 +13,8 @@ namespace {
 
 using Component = Series<Extended>;
 
-/// A function on the section by its derivatives by the pairs' coordinates and by the energy, with
-/// the sizes of their terms.
+/// The derivatives of a function on the section, by the coordinates of the pairs and by the energy,
+/// with the sizes of their terms.
 struct Derivatives {
   std::vector<Component> by_place;  ///< q_2, q_3, p_2, p_3
   Component by_energy;
@@ -25,7 +25,8 @@ Component sizes(Component series) {
   return series;
 }
 
-/// The sum over the two pairs of f_q g_p - f_p g_q, `sign` -1; or of the sizes, 1.
+/// The sum over the two pairs of f_q g_p + sign f_p g_q. `sign` is -1 for the bracket, and 1 for
+/// the sum of the sizes of its terms.
 Component bracket(const std::vector<Component>& f, const std::vector<Component>& g, int sign) {
   const auto product = [&](std::size_t i, std::size_t j) { return f[i] * g[j]; };
   return product(0, 2) + product(1, 3) + Extended(sign) * (product(2, 0) + product(3, 1));
@@ -68,7 +69,7 @@ class Defects {
 template <class Real>
 std::vector<SymplecticityDefect> FlowBoxMap<Real>::symplecticity() const {
   const SpacePointer& space = time.space_pointer();
-  // The whole functions, with the steady motion.
+  // The functions including the steady motion.
   const SteadyMotion<Series<Real>> motion = steady();
   const Series<Real> flight = time + motion.time;
   const std::vector<std::size_t> of_pairs = {1, 2, 4, 5};
@@ -78,7 +79,7 @@ std::vector<SymplecticityDefect> FlowBoxMap<Real>::symplecticity() const {
   const std::optional<std::size_t> ignored = start->ignored();
   if (ignored) psi[*ignored] = coordinates.back() + motion.node;
   turn_steadily(*end, motion, psi);
-  // d u_0 / dE: where the chief is bound, E = E_chief (1 + u_0)^(-2/3).
+  // The derivative d u_0 / dE: where the chief is bound, E = E_chief (1 + u_0)^(-2/3).
   Component by_energy(space, Extended(1) / Extended(start->energy_unit()));
   if (start->is_bound()) {
     by_energy = pow(convert_series<Extended>(start->periods(space)), Extended(5) / 3) *
@@ -90,7 +91,7 @@ std::vector<SymplecticityDefect> FlowBoxMap<Real>::symplecticity() const {
     for (const std::size_t i : of_pairs) {
       const auto found = std::find(start->places().begin(), start->places().end(), i);
       if (found == start->places().end()) {
-        // The ignored coordinate is in none of the functions but its own, where it is added.
+        // The ignored coordinate appears in its own function alone, as an added term.
         result.by_place.emplace_back(space, Extended(place == i ? 1 : 0));
       } else {
         result.by_place.push_back(

@@ -37,7 +37,7 @@ FlowSection<Real>::FlowSection(const ZonalGravity& field, ChartName chart,
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}, std::size_t{4}, std::size_t{5}}) {
     if (i != ignored_) places_.push_back(i);
   }
-  // The rate of the angle is the derivative of the energy by its momentum.
+  // The rate of the angle is the derivative of the energy by the momentum of the angle.
   SixNumbers<Series<Real>> z = constant_series(SeriesSpace::create(1, 1), chief_);
   z[3][1] = Real(1);
   const Series<Real> energy = energy_series(*system_, chart_.state(z));
@@ -57,7 +57,7 @@ Real FlowSection<Real>::variable_of(const Real& energy) const {
   using std::expm1;
   using std::log1p;
   if (!is_bound()) return (energy - energy_) / energy_unit_;
-  // (E / E_chief)^(-3/2) - 1 without the loss of digits near 0.
+  // (E / E_chief)^(-3/2) - 1, without loss of digits near 0.
   return expm1(Real(Real(-1.5) * log1p(Real((energy - energy_) / energy_))));
 }
 
@@ -80,8 +80,8 @@ SixNumbers<Series<Real>> FlowSection<Real>::states(const SpacePointer& space) co
     if (space->order() >= 1) z[places_[k]][space->linear_index(k + 1)] = Real(1);
   }
   const Series<Real> wanted = energies(space);
-  // Newton's method with the chief's derivative gains a degree an iteration; the last one takes
-  // away what rounding has left.
+  // Newton's method with the chief's derivative makes one more degree right in each iteration; the
+  // last iteration removes rounding errors.
   for (int i = 0; i <= space->order(); ++i) {
     Series<Real> excess = energy_series(*system_, chart_.state(z)) - wanted;
     excess[0] = Real(0);
@@ -99,8 +99,8 @@ SixNumbers<Real> FlowSection<Real>::state(const Real& energy, SixNumbers<Real> z
   z[3] = chief_[3];
   if (is_bound() && chart_.is_of_elements() && energy < 0) z[3] *= sqrt(Real(energy_ / energy));
   const SpacePointer space = SeriesSpace::create(1, 1);
-  // Newton's method doubles the digits from an error of the order of J2: a change below this that
-  // is not halved any more is rounding.
+  // Newton's method doubles the number of right digits, beginning with an error of the order of J2.
+  // A change below this limit that is no longer halved is rounding.
   const Real largest_rounding = sqrt(std::numeric_limits<Real>::epsilon());
   constexpr int most_iterations = 20;
   Real last_change = 0;

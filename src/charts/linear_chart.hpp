@@ -5,7 +5,7 @@
 
 namespace hamjet {
 
-/// Six series in six variables, each a number and one variable.
+/// Six series in six variables, where series i is the i-th number plus the i-th variable.
 template <class Real>
 SixNumbers<Series<Real>> moved(const SixNumbers<Real>& z, const SpacePointer& space) {
   const auto one = [&](std::size_t i) { return Series<Real>::variable(space, i, z[i]); };

@@ -38,7 +38,7 @@ SineAndCosine<Series<Real>> sine_and_cosine(const Series<Real>& angle) {
   return {std::move(sine), std::move(cosine)};
 }
 
-/// The root of Kepler's equation, with its sine and cosine.
+/// The root F of Kepler's equation, with its sine and cosine.
 template <class Real>
 struct EccentricLongitude {
   Real angle;
@@ -50,7 +50,8 @@ struct EccentricLongitude {
 ///
 ///   F - k sin F + h cos F = lambda ,   k^2 + h^2 < 1 ,
 ///
-/// by Newton's method inside the bracket lambda - e, lambda + e. NaN if it is not found.
+/// by Newton's method inside the bracket lambda - e, lambda + e. The root is NaN if it is not
+/// found.
 template <class Real>
 EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, const Real& h) {
   using std::sqrt;
@@ -58,7 +59,8 @@ EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, 
   const Real e = sqrt(Real(k * k + h * h));
   Real low = lambda - e;
   Real high = lambda + e;
-  // The series in e to its third power, of M = lambda - w: e sin M and e cos M times each other.
+  // The first guess is the series in e to the third power, with M = lambda - w; it is made of
+  // products of e sin M and e cos M.
   const auto [sine_start, cosine_start] = sine_and_cosine(lambda);
   const Real across = k * sine_start - h * cosine_start;
   const Real along = k * cosine_start + h * sine_start;
@@ -72,8 +74,9 @@ EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, 
     if (!(next >= low && next <= high)) next = (low + high) / Real(2);
     const Real change = next - f;
     f = next;
-    // Newton's method doubles the digits: after a change this small none is left to be found, nor
-    // does its square change a sine. Where a number is none, no comparison holds.
+    // Newton's method doubles the number of right digits: after a change this small none is left to
+    // be found, and the square of the change no longer alters a sine. The comparison is written so
+    // that it also ends the loop for NaN.
     if (!(change * change > std::numeric_limits<Real>::epsilon() / Real(1024))) {
       return {f, s + c * change, c - s * change};
     }
@@ -82,7 +85,8 @@ EccentricLongitude<Real> eccentric_longitude(const Real& lambda, const Real& k, 
   return {none, none, none};
 }
 
-/// Of series: Newton's method from the constant terms doubles the degrees that are right.
+/// For series: Newton's method, started from the constant terms, doubles the number of right
+/// degrees.
 template <class Real>
 EccentricLongitude<Series<Real>> eccentric_longitude(const Series<Real>& lambda,
                                                      const Series<Real>& k, const Series<Real>& h) {
@@ -95,8 +99,8 @@ EccentricLongitude<Series<Real>> eccentric_longitude(const Series<Real>& lambda,
   return {std::move(f), std::move(s), std::move(c)};
 }
 
-/// An ellipse in its plane by elements that are regular on a circle, mu the gravitational
-/// parameter: k = e cos w and h = e sin w, w the angle of the pericentre from the x axis.
+/// An ellipse in its plane by elements that are regular on a circle; mu is the gravitational
+/// parameter, k = e cos w and h = e sin w, where w is the angle of the pericentre from the x axis.
 template <class T>
 struct PlaneElements {
   T lambda;  ///< mean longitude, w + M
@@ -133,7 +137,8 @@ PlaneState<T> plane_state(const PlaneElements<T>& elements, const Real& mu) {
           rate * (kk * c - hk * s)};
 }
 
-/// The elements of position and velocity in the plane; those of no ellipse are not finite.
+/// The elements that belong to position and velocity in the plane. They are not finite if the orbit
+/// is not an ellipse.
 template <class Real, class T>
 PlaneElements<T> plane_elements(const PlaneState<T>& state, const Real& mu) {
   using std::atan2;

@@ -7,9 +7,10 @@
 namespace hamjet {
 
 /// The mean motion of an ellipse about an oblate body: its angles' steady advance to first order in
-/// J2, by closed formulas. What an orbit does besides is small and hardly nonlinear, so that
-/// polynomials reach far once this is taken out of them; it is put back exactly, so that its own
-/// error of order J2^2 costs nothing. With a = L^2/mu, eta = G/L, c = H/G, p = G^2/mu,
+/// J2, by closed formulas. The rest of the motion is small and hardly nonlinear, so that
+/// polynomials reach far once the mean motion is taken out of them. The mean motion is put back
+/// exactly, so that its own error of order J2^2 costs nothing. With a = L^2/mu, eta = G/L, c = H/G,
+/// p = G^2/mu,
 ///
 ///   f = 3/4 J2 R^2 n / p^2 ,                     K = mu J2 R^2 (1 - 3 c^2) / (4 a^3 eta^3) ,
 ///   l' = n + f eta (3 c^2 - 1) ,  g' = f (5 c^2 - 1) ,  h' = -2 f c ,
@@ -23,7 +24,7 @@ struct SecularRates {
   T node;        ///< h'
 };
 
-/// The rates at an energy and the momenta L - G and H; `oblateness` is J2 R^2.
+/// The rates for an energy and the momenta L - G and H; `oblateness` is J2 R^2.
 template <class Real, class T>
 SecularRates<T> secular_rates(const T& energy, const T& eccentric, const T& H, const Real& mu,
                               const Real& oblateness) {
@@ -35,7 +36,7 @@ SecularRates<T> secular_rates(const T& energy, const T& eccentric, const T& H, c
   }
   T G = L - eccentric;
   T cosine = H / G;
-  // K is of the order of J2, so that two iterations leave what is of its third power.
+  // K is of the order of J2, so that two iterations leave an error of order J2^3.
   for (int i = 0; i < 2; ++i) {
     const T K = oblateness * mu * mu * mu * mu / Real(4) * (Real(1) - Real(3) * cosine * cosine) /
                 (L * L * L * G * G * G);

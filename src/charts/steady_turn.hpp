@@ -7,7 +7,8 @@
 
 namespace hamjet {
 
-/// Turns the pair (q, p) = A (-sin theta, cos theta) by an angle, theta to theta + angle.
+/// Turns the pair (q, p) = A (-sin theta, cos theta) by an angle, so that theta becomes theta +
+/// angle.
 template <class Real, class T>
 void turn_pair(T& q, T& p, const T& angle) {
   const auto [s, c] = sine_and_cosine(angle);
@@ -16,12 +17,13 @@ void turn_pair(T& q, T& p, const T& angle) {
   q = turned;
 }
 
-/// The place of the pericentre's pair among the coordinates of a section in elements: behind the
-/// node where that is a coordinate of its own, before the node's pair where it is not.
+/// The place of the pericentre's pair among the coordinates of a section in elements. The pair
+/// stands behind the node where the node is a coordinate of its own, and before the node's pair
+/// otherwise.
 inline std::size_t pericentre_place(std::optional<std::size_t> ignored) { return ignored ? 2 : 1; }
 inline constexpr std::size_t node_pair_place = 2;  ///< where the node has a pair
 
-/// Turns the coordinates of a section by a steady motion; those that are no elements stay.
+/// Turns the coordinates of a section by a steady motion; coordinates that are not elements stay.
 template <class Real, class T>
 void turn_steadily(const FlowSection<Real>& section, const SteadyMotion<T>& steady,
                    SixNumbers<T>& z) {

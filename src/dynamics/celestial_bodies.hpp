@@ -5,10 +5,10 @@
 
 namespace hamjet {
 
-/// A body that orbits are flown about.
+/// A body about which orbits are flown.
 struct CelestialBody {
   std::string_view name;  ///< in capitals, as in CENTER_NAME of an orbit message
-  double mu_km3_s2;       ///< gravitational parameter, with moons except for the Earth
+  double mu_km3_s2;       ///< gravitational parameter; it includes the moons, except for the Earth
   double equator_radius_km;
 };
 
@@ -18,15 +18,15 @@ struct CelestialBody {
 /// Mechanics and Dynamical Astronomy 130 (2018) 22).
 std::span<const CelestialBody> celestial_bodies();
 
-/// A gravitational parameter within this relative distance is taken for that of a body: its
-/// published values, and those with and without its moons, differ by less (Saturn's by 2.5e-4).
+/// A gravitational parameter within this relative distance of a body's counts as the body's.
+/// Published values, and values with and without moons, differ by less (Saturn's by 2.5e-4).
 inline constexpr double body_mu_tolerance = 1e-3;
 
-/// The body with this name, in capitals or not, or with this name less "BARYCENTER"; null for any
+/// The body with this name, in any case of letters and with or without "BARYCENTER". Null for any
 /// other name, and for the barycentre of Earth and Moon, which is not the Earth.
 const CelestialBody* body_named(std::string_view name);
 
-/// The body that has this gravitational parameter; null if none has.
+/// The body that has this gravitational parameter; null if no body has it.
 const CelestialBody* body_with_mu(double mu_km3_s2);
 
 }  // namespace hamjet

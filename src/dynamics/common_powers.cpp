@@ -6,7 +6,7 @@
 namespace hamjet {
 namespace {
 
-/// n of a power u^(-n/2), at most 40 (see power()); 0 for other operations.
+/// The n of a power u^(-n/2), at most 40 (see power()); 0 for other operations.
 unsigned twice_negative(const Operation& o) {
   if (o.code != OperationCode::power) return 0;
   const double twice = -2 * static_cast<double>(o.constant);

@@ -9,7 +9,7 @@
 namespace hamjet {
 namespace {
 
-/// The rows of M^-1 if all q' are constant linear functions of p alone.
+/// The rows of M^-1 if all q' are linear functions of p alone with constant coefficients.
 std::optional<std::vector<Extended>> inverse_mass(const OperationList& field) {
   const std::size_t n = field.inputs() / 2;
   std::vector<Extended> matrix(n * n, 0);
@@ -95,8 +95,8 @@ std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system
   for (std::size_t i = 0; i < 2 * n; ++i) {
     if (nominal[i] != 0) needed[i % n] = true;
   }
-  // Where the rest is not invariant (its derivatives do not vanish identically on the subspace),
-  // the driven degrees of freedom join, until nothing more does.
+  // If the subspace is not invariant (derivatives of the other variables do not vanish identically
+  // on it), the driven degrees of freedom join it, until nothing more is driven.
   while (true) {
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < n; ++i) {
@@ -126,7 +126,7 @@ DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const s
       make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
                   restrict_list(system.vector_field, indices, indices));
   restricted.waves_on_a_circle = system.waves_on_a_circle;
-  // A rotation is one of the subspace if all that it turns is kept.
+  // A rotation of the system is one of the subsystem if all coordinates that it turns are kept.
   for (const auto& [i, j] : system.rotated_planes) {
     const auto place = [&](std::size_t index) {
       return static_cast<std::size_t>(std::find(indices.begin(), indices.end(), index) -

@@ -80,7 +80,7 @@ Expression pow(const Expression& a, const Expression& exponent) {
   if (a.is_constant()) return Extended(pow(a.constant(), e));
   if (e == 0) return 1;
   if (e == 1) return a;
-  // Small natural powers are products, which hold where the base is zero too.
+  // Small natural powers are recorded as products, which also hold where the base is zero.
   if (e > 1 && e <= 16 && e == floor(e)) {
     const int n = static_cast<int>(e);
     const Expression half = pow(a, Expression(n / 2));
@@ -167,7 +167,8 @@ Expression Recorder::operation(OperationCode code, std::size_t u, std::size_t v,
 }
 
 std::pair<Expression, Expression> Recorder::sine_cosine(std::size_t u) {
-  // Sine and cosine are recorded one after the other, so each knows the other's number.
+  // Sine and cosine are recorded one after the other, so that the number of each follows from the
+  // other's.
   const Key key{OperationCode::sine, u, 0, 0, {}};
   const auto known = known_.find(key);
   const std::size_t sine = known != known_.end() ? known->second : operations_.size();

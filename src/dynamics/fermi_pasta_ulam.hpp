@@ -7,8 +7,8 @@
 
 namespace hamjet {
 
-/// The chain of 2m points of unit mass between two walls, stiff linear springs in turns with soft
-/// nonlinear ones; q_i is the displacement of point i, and q_0 = q_(2m+1) = 0:
+/// The chain of 2m points of unit mass between two walls, in which stiff linear springs alternate
+/// with soft nonlinear ones; q_i is the displacement of point i, and q_0 = q_(2m+1) = 0:
 ///
 ///   H = 1/2 sum_(i=1..2m) p_i^2 + omega^2/4 sum_(i=1..m) (q_(2i) - q_(2i-1))^2
 ///       + sum_(i=0..m) (q_(2i+1) - q_(2i))^4 .

@@ -7,7 +7,7 @@
 namespace hamjet {
 namespace {
 
-/// The partial derivatives of a nonlinear operation by its operands, as expressions.
+/// The partial derivatives of a nonlinear operation with respect to its operands, as expressions.
 struct Partials {
   Expression u;
   Expression v;

@@ -11,7 +11,7 @@ namespace {
 
 using Gradient = std::array<Extended, 6>;
 
-/// A function of position and velocity with its derivatives by them.
+/// A function of position and velocity, with its derivatives by these.
 using Number = Series<Extended>;
 using Vector = std::array<Number, 3>;
 
@@ -21,7 +21,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// f(x) for a function of one number, from its value and derivative there.
+/// f(x) for a function f of one number, from the value and the derivative of f there.
 Number chain(const Number& x, const Extended& value, const Extended& derivative) {
   Number result = derivative * x;
   result[0] = value;
@@ -30,12 +30,12 @@ Number chain(const Number& x, const Extended& value, const Extended& derivative)
 
 Number arctangent(const Number& x) { return chain(x, atan(x[0]), Extended(1) / (1 + x[0] * x[0])); }
 
-/// (1 - exp(-100 x^2)) / x, which is 1/x but near 0.
+/// (1 - exp(-100 x^2)) / x, which equals 1/x except near 0.
 Number soft_inverse(const Number& x) {
   const Extended& at = x[0];
   const Extended square = 100 * at * at;
   if (square < Extended(1e-12)) {
-    // The next terms are 1e-24 of these.
+    // The next terms of the series are 1e-24 of these.
     return chain(x, 100 * at * (1 - square / 2), 100 * (1 - 3 * square / 2));
   }
   const Extended value = -expm1(Extended(-square)) / at;
@@ -48,7 +48,7 @@ Number soft_inverse(const Number& x) {
               "centre");
 }
 
-/// The derivatives of the generating function by position and velocity.
+/// The derivatives of the generating function with respect to position and velocity.
 Gradient gradient_of_generating_function(const CartesianState& state, const OblateBody& body) {
   const SpacePointer space = SeriesSpace::create(6, 1);
   const auto variable = [&](std::size_t i) {
@@ -69,7 +69,7 @@ Gradient gradient_of_generating_function(const CartesianState& state, const Obla
   const Number eta = sqrt(p * inverse_a);
   const Number radial_rate = dot(r, v) / distance;
 
-  // e cos f and e sin f, and the differences of the anomalies with them.
+  // e cos f and e sin f, and with them the differences of the anomalies.
   const Number e_cos = p / distance - Extended(1);
   const Number e_sin = radial_rate * G / mu;
   const Number f_minus_E = Extended(2) * arctangent(e_sin / (Extended(1) + eta + e_cos));
@@ -94,8 +94,8 @@ Gradient gradient_of_generating_function(const CartesianState& state, const Obla
   const Extended flattening = body.J2 * Extended(body.radius_km) * body.radius_km / 2;
   const Number short_period = -(mu * flattening) * integral / (p * G);
 
-  // e sin i sin g and e sin i cos g are z components of the eccentricity vector and of what is a
-  // right angle ahead of it in the plane.
+  // e sin i sin g and e sin i cos g are the z components of the eccentricity vector and of the
+  // vector a right angle ahead of it in the plane.
   const Number e_up = e_cos * up - e_sin * along;
   const Number e_along = e_cos * along + e_sin * up;
   // L gamma_2 e^2 / (16 eta^3) sin^2 i (1 - 15 theta^2) / (1 - 5 theta^2) sin 2g .
@@ -108,7 +108,7 @@ Gradient gradient_of_generating_function(const CartesianState& state, const Obla
   return gradient;
 }
 
-/// A state moved by the periodic terms at `mean`, times a sign.
+/// A state moved by the periodic terms that are evaluated at `mean`, times a sign.
 CartesianState moved(const CartesianState& state, const CartesianState& mean,
                      const OblateBody& body, int sign) {
   const Gradient gradient = gradient_of_generating_function(mean, body);
@@ -120,8 +120,8 @@ CartesianState moved(const CartesianState& state, const CartesianState& mean,
   return result;
 }
 
-/// The relative difference of positions and that of velocities, together; a sum, so that what is no
-/// number stays.
+/// The sum of the relative differences of positions and of velocities. A sum, unlike a maximum,
+/// keeps a NaN.
 Extended difference(const CartesianState& a, const CartesianState& b) {
   const auto relative = [](const auto& x, const auto& y) {
     Extended distance = 0, size = 0;

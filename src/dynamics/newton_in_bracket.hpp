@@ -9,24 +9,24 @@
 
 namespace hamjet {
 
-/// How far a rising function is above 0 at a place, and how fast it rises there.
+/// The value of a rising function at a place, and its slope there.
 struct MissAndSlope {
   Extended miss;
   Extended slope;
 };
 
-/// The root of a rising function between `low` and `high`, by Newton's method from `guess`; a step
-/// that would leave the bracket halves it. `miss_at` gives MissAndSlope at a place. Throws
-/// Error(numerical) if a value is no number, or if 200 steps do not find the root.
+/// The root of a rising function between `low` and `high`, by Newton's method from `guess`. Where a
+/// step would leave the bracket, the bracket is halved instead. `miss_at` gives MissAndSlope at a
+/// place. Throws Error(numerical) if a value is NaN, or if 200 steps do not find the root.
 template <class Function>
 Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, Extended guess) {
-  // Halving alone gains a bit a step; Newton's steps need some ten.
+  // Halving alone gains one bit per step; Newton's method needs some ten steps.
   constexpr int most_steps = 200;
   Extended last_miss = 0, at_guess = guess;
   for (int i = 0; i < most_steps; ++i) {
     const MissAndSlope at = miss_at(guess);
     last_miss = at.miss;
-    // Halving would come to an end of the bracket and take it for the root.
+    // With a NaN, halving would run to an end of the bracket and take that end for the root.
     if (!isfinite(at.miss)) break;
     at_guess = guess;
     (at.miss > 0 ? high : low) = guess;
@@ -38,8 +38,9 @@ Extended root_in_bracket(const Function& miss_at, Extended low, Extended high, E
     guess = next;
     if (is_found) return guess;
   }
-  // Where the slope is small, rounding of the function moves the place to and fro by more than
-  // that. It is a sum of three terms no larger than about the place, each rounded a few times.
+  // Where the slope is small, the rounding of the function moves the place back and forth by more
+  // than the last digit. The function is a sum of three terms no larger than about the place, each
+  // rounded a few times.
   const Extended rounding = 16 * std::numeric_limits<Extended>::epsilon() * (1 + abs(at_guess));
   if (abs(last_miss) <= rounding) return at_guess;
   throw Error(ErrorKind::numerical,

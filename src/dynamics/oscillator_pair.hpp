@@ -7,8 +7,8 @@
 namespace hamjet {
 
 /// Two harmonic oscillators without coupling, H = (p_1^2 + p_2^2)/(2 m) + (k_1 q_1^2 + k_2
-/// q_2^2)/2: the simplest system of two frequencies, sqrt(k_1/m) and sqrt(k_2/m), as far apart as
-/// one likes.
+/// q_2^2)/2: the simplest system of two frequencies, sqrt(k_1/m) and sqrt(k_2/m), whose ratio is
+/// free.
 struct OscillatorPairHamiltonian {
   double mass = 1;
   double first_stiffness = 1;

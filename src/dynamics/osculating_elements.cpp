@@ -17,8 +17,8 @@ Extended pi() { return boost::math::constants::pi<Extended>(); }
 /// below the degree. Nothing is rounded below 1e30 degrees, where the number of turns is exact.
 Extended within_one_turn(const Extended& angle_deg) { return fmod(angle_deg, Extended(360)); }
 
-/// A zero with a minus sign, which the products below may leave, is the same state as +0, but would
-/// be printed differently.
+/// A zero with a minus sign, which the products below may leave, means the same as +0 but would be
+/// printed differently.
 Extended without_sign_of_zero(const Extended& value) { return value == 0 ? Extended(0) : value; }
 
 Extended norm_squared(const std::array<Extended, 3>& v) {
@@ -84,7 +84,7 @@ CartesianState state_from_elements(const OsculatingElements& elements, double mu
   const auto [sin_i, cos_i] = sine_cosine_of_degrees(within_one_turn(elements.inclination_deg));
   const auto [sin_perigee, cos_perigee] = sine_cosine_of_degrees(perigee_deg);
   const auto [sin_anomaly, cos_anomaly] = sine_cosine_of_degrees(anomaly_deg);
-  // Argument of latitude. The angles are added in degrees, where 45 + 45 is 90 exactly.
+  // The argument of latitude. Its angles are added in degrees, where 45 + 45 is exactly 90.
   const auto [sin_latitude, cos_latitude] = sine_cosine_of_degrees(perigee_deg + anomaly_deg);
 
   const Extended semi_latus_rectum = a * (1 - e) * (1 + e);
@@ -131,7 +131,7 @@ OsculatingElements elements_from_state(const CartesianState& state, double mu_km
   elements.eccentricity = sqrt(e_cosine * e_cosine + e_sine * e_sine);
   const Extended across = sqrt(h[0] * h[0] + h[1] * h[1]);
   elements.inclination_deg = atan2(across, h[2]) * 180 / pi();
-  // The line of nodes; the x axis in the equatorial plane.
+  // The direction of the line of nodes; in the equatorial plane it is the x axis.
   const Extended node_x = across > 0 ? Extended(-h[1] / across) : Extended(1);
   const Extended node_y = across > 0 ? Extended(h[0] / across) : Extended(0);
   elements.ascending_node_deg = positive_degrees(node_y, node_x);
@@ -151,7 +151,7 @@ OsculatingElements elements_from_state(const CartesianState& state, double mu_km
 Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
                                        const Extended& eccentricity) {
   check_anomaly(mean_anomaly_deg, eccentricity);
-  // In degrees, of which sine and cosine at multiples of a right angle are exact.
+  // The angle is in degrees, because sine and cosine are then exact at multiples of a right angle.
   const Extended e_deg = eccentricity * 180 / pi();
   const auto miss = [&](const Extended& anomaly_deg) -> MissAndSlope {
     const auto [sine, cosine] = sine_cosine_of_degrees(anomaly_deg);

@@ -6,14 +6,14 @@
 
 namespace hamjet {
 
-/// The Legendre polynomials P_n(s), s = z/r, and their derivatives, odd functions without their
-/// factor z. With u = 1/r^2, y = 1 - s^2 and a power a of 1/r, for each k,
+/// The Legendre polynomials P_n(s), s = z/r, and their derivatives; odd functions are written
+/// without their factor z. With u = 1/r^2, y = 1 - s^2 and a power a of 1/r, for each k,
 ///
 ///   A_k = P'_(2k+1)(s) / r^(a+2k),          B_k = P'_(2k+2)(s)/s / r^(a+2k+2),
 ///   D_k = (2k+1) P_(2k+1)(s)/s / r^(a+2k) = A_k - B_(k-1) .
 template <class T>
 struct SolidZonals {
-  std::vector<T> A;  ///< from k = 1 on, the place of k = 0 is empty
+  std::vector<T> A;  ///< from k = 1 on; the place of k = 0 is empty
   std::vector<T> B;
   std::vector<T> D;   ///< from k = 1 on
   std::vector<T> uD;  ///< u D_k
@@ -21,9 +21,8 @@ struct SolidZonals {
 };
 
 /// Up to this k, D_k is taken as the difference A_k - B_(k-1), at no extra cost. At the poles D_k
-/// is smaller than its parts by a factor k + 1, and y loses as much where it is 1 - s^2: up to the
-/// degree 2k+1 = 7 that costs less than one decimal, and at degree 20 it would be 2.5e-14 of a
-/// term.
+/// is smaller than these parts by a factor k + 1, and y = 1 - s^2 cancels as well. Up to degree
+/// 2k+1 = 7 this costs less than one decimal; at degree 20 the error would be 2.5e-14 of a term.
 inline constexpr int last_difference = 3;
 
 /// Forms all that zonal coefficients up to degree `highest` need. From n P'_(n+1) = (2n+1) s P'_n -
@@ -33,8 +32,9 @@ inline constexpr int last_difference = 3;
 ///   A_(k+1) = [(4k+5) s^2 B_k - (2k+3) u A_k] / (2k+2) ,
 ///   D_(k+1) = (2k+3)/(2k+1) u D_k - (4k+5)/(2k+2) y B_k .
 ///
-/// A is accurate at the equator, where s^2 is small, and D at the poles, where y is. Two degrees
-/// cost three products (u A, u B, z^2 u B), beyond last_difference four (u A, u D, s^2 B, y B).
+/// A is accurate at the equator, where s^2 is small, and D at the poles, where y is small. Two
+/// degrees cost three products (u A, u B, z^2 u B), and beyond last_difference four (u A, u D, s^2
+/// B, y B).
 template <class T>
 SolidZonals<T> solid_zonals(std::span<const T> q, int power, int highest) {
   const T rho2 = q[0] * q[0] + q[1] * q[1];

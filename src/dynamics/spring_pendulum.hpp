@@ -18,7 +18,7 @@ namespace hamjet {
 struct SpringPendulumHamiltonian {
   double mass = 1;
   double stiffness = 1;
-  double length = 1;   ///< of the spring without load
+  double length = 1;   ///< length of the spring without load
   double gravity = 0;  ///< acceleration
 
   template <class T>

@@ -41,8 +41,8 @@ bool are_finite(const Numbers& z) {
   return std::all_of(z.begin(), z.end(), [](const Extended& x) { return isfinite(x); });
 }
 
-/// The largest change of the field under a rotation of points and field together, relative to the
-/// field; none where it is not finite.
+/// The largest change of the field when the points and the field are rotated together, relative to
+/// the field; no value where the field is not finite.
 std::optional<Extended> largest_change(const DynamicalSystem& system, const Numbers& z,
                                        const Extended& cosine, const Extended& sine) {
   const Numbers first = rotated(field_at(system, z), system.rotated_planes, cosine, sine);
@@ -80,8 +80,8 @@ DynamicalSystem with_rotation(DynamicalSystem system,
 
   constexpr int wanted_points = 4;
   constexpr int most_points = 100;
-  // A field of some hundred operations rounds by less; one that is not symmetric, by however little
-  // that a double shows, changes by far more.
+  // Rounding in a field of some hundred operations is smaller than this. A field whose asymmetry
+  // shows in a double at all changes by far more.
   const Extended allowed = 1e4 * std::numeric_limits<Extended>::epsilon();
   const Extended angle = 1;
   std::mt19937_64 random(20261123);

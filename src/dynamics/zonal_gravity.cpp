@@ -48,14 +48,14 @@ struct Hamiltonian {
       }
       potential += q[2] * odd;
     }
-    // The central term comes last, so that the sum has the small terms first.
+    // The central term is added last, so that small terms are summed first.
     potential -= T(field.mu) * pow(distance_squared(q), T(-0.5));
     return (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / T(2) + potential;
   }
 };
 
 /// The force -dV/dq of a zonal field. With Z_n = P_n(z/r) / r^(n+1) and H_n = P'_(n+1)(z/r) /
-/// r^(n+3), where ' is the derivative by the argument,
+/// r^(n+3), where ' is the derivative with respect to the argument,
 ///
 ///   dZ_n/dx = -x H_n, dZ_n/dy = -y H_n, dZ_n/dz = -z H_n + H_(n-1) .
 struct Force {
@@ -66,7 +66,7 @@ struct Force {
     const int highest = field.J.highest_present();
     T horizontal(0);  // factor of x and y
     T vertical(0);    // factor of z, of even n
-    T odd(0);         // of odd n; its product with z belongs to both
+    T odd(0);         // sum over odd n, of which the product with z belongs to both
     T axial(0);
     if (highest != 0) {
       const std::vector<T> c = solid_coefficients<T>(field, highest);
@@ -83,7 +83,7 @@ struct Force {
       }
     }
     const T odd_part = q[2] * odd;
-    // The central term comes last, so that the sums have the small terms first.
+    // The central terms are added last, so that small terms are summed first.
     const T attraction = T(field.mu) * pow(distance_squared(q), T(-1.5));
     const T common = horizontal + odd_part - attraction;
     return {q[0] * common, q[1] * common, q[2] * (vertical + odd_part - attraction) - axial};
@@ -95,7 +95,7 @@ struct Force {
 DynamicalSystem zonal_gravity(const ZonalGravity& field) {
   DynamicalSystem system = make_system("zonal-gravity", 3, Hamiltonian{field}, Force{field});
   system.waves_on_a_circle = field.J.highest_present();
-  system.rotated_planes = {{0, 1}, {3, 4}};  // about the axis of the zonal harmonics
+  system.rotated_planes = {{0, 1}, {3, 4}};  // the rotation about the axis of the zonal harmonics
   return system;
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-// Lines and columns of DACE's text; see hamjet/formats/dace_text.hpp.
+// The widths of lines and columns in DACE's text; see hamjet/formats/dace_text.hpp.
 
 namespace hamjet::io::dace {
 

@@ -43,7 +43,7 @@ void write_polynomial(fmt::memory_buffer& out, const Series<Extended>& polynomia
 }
 
 FlowJet<Extended> read_dace_coefficients(const CoefficientFile& file, std::string_view text) {
-  // Rows of zeros are left out, but a damaged order could ask for gigabytes.
+  // Zero coefficients have no rows, so that a damaged order could ask for gigabytes of zeros.
   constexpr double most_zeros = 1000;
   const double terms = SeriesSpace::monomial_count(file.variables.size(), file.order);
   if (terms > most_zeros * static_cast<double>(text.size() + 1)) {

@@ -24,38 +24,40 @@
 // DACE reads a row by its columns: 6 for its number, 2 blanks, 24 for the coefficient, 4 for the
 // degree, a blank, and 3 for each exponent. The coefficient has 17 significant digits, which bring
 // back every double bit by bit. Lines end before column 140, so that there are at most 34
-// variables. There is no place for names, units or more digits; behind the line ]]] DACE reads
-// nothing.
+// variables. The format has no place for names, units or more digits; DACE reads nothing behind the
+// line ]]].
 //
 // DACE prints one blank line more behind each polynomial of a vector, but its operator >> takes
-// that line for the head of the next polynomial (error 32). It is left out here, so that both read
-// what is written, and is read where it stands.
+// that line for the head of the next polynomial (error 32). The blank line is left out here, so
+// that DACE can read the text; when reading, it is accepted.
 
 namespace hamjet::io {
 
 struct OutputFormat;
 
-/// `jet.dace` of each run; the reader of jets takes its coefficients beside a `summary.json`.
+/// `jet.dace` of each run; the reader of jets takes its coefficients together with a
+/// `summary.json`.
 extern const OutputFormat dace_format;
 
-/// The text of polynomials, each coefficient rounded to double precision; those that are +0 are
-/// left out, as DACE does. The lines of `notes` follow behind the end, a # before each. Throws
-/// Error(input_output) for what the text cannot hold: more than 34 variables, more than 999999
-/// coefficients of one polynomial, a coefficient beyond double precision.
+/// The text of polynomials, with each coefficient rounded to double precision; coefficients that
+/// are +0 are left out, as in DACE. The lines of `notes` follow behind the end, each after a #.
+/// Throws Error(input_output) for content that the text cannot hold: more than 34 variables, more
+/// than 999999 coefficients of one polynomial, a coefficient beyond double precision.
 std::string dace_text(const std::vector<Series<Extended>>& polynomials,
                       const std::vector<std::string>& notes = {});
 
-/// Reads the text of polynomials in the variables and up to the order of `space`; with or without
-/// the lines [[[ and ]]], which one polynomial alone has not. `name` is the file's, for messages.
-/// Throws Error(input_output), one line with file and line, for anything else: what DACE would add
-/// up, cut off or skip, such as a coefficient twice or a degree that is not the sum of the
-/// exponents, is refused.
+/// Reads the text of polynomials in the variables and up to the order of `space`. The lines [[[ and
+/// ]]] may be there or, as for a single polynomial, absent. `name` is the file's name for messages.
+/// Throws Error(input_output), with one line that names file and line, for any other text. Content
+/// that DACE would add up, cut off or skip is refused as well, for example a repeated coefficient,
+/// or a degree that is not the sum of the exponents.
 std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text,
                                            const SpacePointer& space);
 
 /// Reads the text of polynomials in as many variables as its rows have, up to the highest degree in
-/// it (at least 1); otherwise as with `space`. Throws Error(input_output) too if no row tells the
-/// number of variables, and Error(too_large) for more than 1e5 coefficients.
+/// it (at least 1); otherwise as with `space`. It also throws Error(input_output) if there is no
+/// row, which would give the number of variables, and Error(too_large) for more than 1e5
+/// coefficients.
 std::vector<Series<double>> read_dace_text(const std::string& name, std::string_view text);
 
 }  // namespace hamjet::io

@@ -15,7 +15,8 @@
 namespace hamjet::io {
 namespace {
 
-/// Most coefficients of a text that itself says how many variables and orders it has.
+/// The largest number of coefficients if the text itself determines the numbers of variables and
+/// orders.
 constexpr double most_coefficients = 1e5;
 
 struct Term {
@@ -76,7 +77,8 @@ class DaceReader {
   }
 
  private:
-  /// Takes the next line that is not blank. Blanks at the end count as none, as DACE pads them.
+  /// Takes the next line that is not blank. Blanks at the end of a line are ignored, because DACE
+  /// pads lines.
   void next_line() {
     do {
       at_end_ = rest_.empty();
@@ -91,7 +93,7 @@ class DaceReader {
   std::size_t vector_size() const {
     const std::string_view word = without_blanks_before(line_.substr(3));
     const auto size = number_in<std::size_t>(word.substr(0, word.find(' ')));
-    // A polynomial takes two lines at least.
+    // A polynomial takes at least two lines, so that the size is bounded by the text.
     if (!size || *size == 0 || *size > rest_.size()) {
       fail(fmt::format("must be [[[ with the number of polynomials, got {}", in_quotes(line_)));
     }
@@ -195,7 +197,7 @@ class DaceReader {
   const std::string& name_;
   std::string_view rest_;
   const SeriesSpace* space_;
-  std::size_t columns_;  ///< of exponents
+  std::size_t columns_;  ///< number of columns of exponents
   std::string_view line_;
   std::size_t line_number_ = 0;
   bool at_end_ = false;

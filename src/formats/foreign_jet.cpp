@@ -11,7 +11,7 @@
 namespace hamjet::io {
 namespace {
 
-/// The label of the one run that such a jet has.
+/// The label of the single run that a jet from another program has.
 constexpr const char* foreign_label = "foreign";
 
 [[noreturn]] void refuse(std::string_view key, const std::string& what) {

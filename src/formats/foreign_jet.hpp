@@ -10,7 +10,8 @@
 
 namespace hamjet::io {
 
-/// What must be told of a jet from elsewhere, as the command's option and Python's argument.
+/// One member of the description that must be given for a jet from another program, as an option of
+/// the command and an argument in Python.
 struct DescriptionMember {
   std::string_view key;
   std::string_view help;
@@ -19,19 +20,20 @@ struct DescriptionMember {
                std::optional<std::vector<double>> JetDescription::*>
       value;
 
-  /// The option of the command: the key after two dashes, with dashes.
+  /// The option of the command: two dashes, then the key with dashes for underscores.
   std::string option() const;
 };
 
 /// All members, in the order of messages and help.
 const std::vector<DescriptionMember>& description_members();
 
-/// Whether anything is told.
+/// Whether any member is given.
 bool is_any_given(const JetDescription& given);
 
-/// The jet in the text of a file whose format reads polynomials alone, in double precision. `name`
-/// is the file's, for messages; `scene` names the jet. Throws Error(usage) for what is not told or
-/// cannot be, Error(input_output) for a text that is damaged or does not fit what is told.
+/// The jet in a file whose format holds polynomials alone, in double precision. `name` is the
+/// file's name for messages; `scene` becomes the name of the jet. Throws Error(usage) for a
+/// description that is incomplete or impossible, and Error(input_output) for a text that is damaged
+/// or does not fit the description.
 StoredJet foreign_jet(const std::string& name, const std::string& scene, std::string_view text,
                       const OutputFormat& format, const JetDescription& given);
 

@@ -22,8 +22,9 @@ Extended years_between(const Epoch& from, const Epoch& to) {
   return seconds / seconds_per_julian_year;
 }
 
-/// A date as yyyymmdd or yyyymmdd.hhmm. The minute may be 60, and the hour 24 where the minute is
-/// 0: EIGEN-6S4v2 has the earthquake of 2004-12-26, 00:58:53, at 20041226.0060, which is 01:00.
+/// A date in the form yyyymmdd or yyyymmdd.hhmm. The minute may be 60, and the hour 24 if the
+/// minute is 0: EIGEN-6S4v2 has the earthquake of 2004-12-26, 00:58:53, at 20041226.0060, which is
+/// 01:00.
 std::optional<Epoch> date_in(std::string_view word) {
   constexpr std::size_t day_digits = 8, digits = 13;
   if (word.size() != day_digits && (word.size() != digits || word[day_digits] != '.')) {
@@ -39,7 +40,7 @@ std::optional<Epoch> date_in(std::string_view word) {
   return later(*day, Extended(60 * *hours + *minutes) * 60);
 }
 
-/// To the minute, as files have it.
+/// A date to the minute, as the files have it.
 std::string date_text(const Epoch& epoch) { return format_epoch(epoch).substr(0, 16); }
 
 }  // namespace
@@ -52,7 +53,7 @@ std::optional<Extended> gravity_number(std::string_view word) {
   std::string text(word);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd' || c == 'E'; }, 'e');
-  // The number must be within double precision too, in which scenes have their numbers.
+  // The number must also fit into double precision, in which scenes have their numbers.
   if (!finite_number(text)) return std::nullopt;
   if (text.starts_with('+')) text.erase(0, 1);
   return finite_extended_number(text);

@@ -8,15 +8,15 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/formats/epoch.hpp"
 
-// A zonal coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes,
-// C. Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of
-// what varies has an interval in which it holds.
+// A zonal coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes, C.
+// Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of a
+// coefficient that varies has an interval of validity.
 
 namespace hamjet::io {
 
-/// A file whose lines messages are about.
+/// A file to whose lines messages refer.
 struct NamedFile {
-  std::string name;  ///< printable
+  std::string name;  ///< printable name
 
   /// Throws Error(input_output) with `name:line: problem`.
   [[noreturn]] void fail_at(int line, const std::string& problem) const;
@@ -24,21 +24,23 @@ struct NamedFile {
 
 enum class GravityFormat { icgem1, icgem2 };
 
-/// A number with an exponent of C or of Fortran, if it is finite, within double precision too.
+/// A number with an exponent in the notation of C or Fortran, if it is finite in double precision
+/// too.
 std::optional<Extended> gravity_number(std::string_view word);
 
-/// The keys of the records of coefficients: the first is that of constants, all others are about
-/// what varies with time.
+/// The keys of the records of coefficients. The first key is for constant coefficients, all others
+/// for coefficients that vary with time.
 const std::vector<std::string_view>& gravity_record_keys();
 
-/// C(n,0) as in its file, normalised or not, record by record.
+/// The coefficient C(n,0) as its file gives it, normalised or not, collected record by record.
 class GravityCoefficient {
  public:
   explicit GravityCoefficient(int degree) : degree_(degree) {}
 
-  /// Takes a record: a line of the file as words, of which the first five are there. Throws
-  /// Error(input_output) for another number of columns than its key has in this format, for what is
-  /// no number, date or period, for an empty interval, and for a second constant.
+  /// Takes a record: a line of the file as words, of which at least five are there. Throws
+  /// Error(input_output) for another number of columns than the key has in this format, for a word
+  /// that is not a number, date or period where one must be, for an empty interval, and for a
+  /// second constant.
   void add(const NamedFile& file, int line, const std::vector<std::string_view>& words,
            GravityFormat format);
 
@@ -48,10 +50,11 @@ class GravityCoefficient {
 
   /// The value. At time t, in Julian years of 365.25 days, it is
   ///   gfct + trnd (t - t0) + asin sin(2 pi (t - t0) / T) + acos cos(2 pi (t - t0) / T) + ...
-  /// In format 1.0 t0 is that of gfct, and this holds always; in format 2.0 a record has its own t0
-  /// and holds from then until before t1. Time systems are not told apart: a minute is 2e-6 years,
-  /// in which no digit changes that is known. Throws Error(input_output) for what varies without an
-  /// epoch, and for an epoch at which no value holds, or two, or a term twice.
+  /// In format 1.0, t0 is that of gfct, and the formula always holds; in format 2.0 each record has
+  /// its own t0 and holds from t0 to before t1. Time systems are not distinguished: they differ by
+  /// about a minute, 2e-6 years, in which no known digit changes. Throws Error(input_output) if a
+  /// coefficient varies and there is no epoch, or if at the epoch no value, two values, or one term
+  /// twice hold.
   Extended at(const NamedFile& file, const std::optional<Epoch>& epoch) const;
 
  private:
@@ -64,7 +67,7 @@ class GravityCoefficient {
     Extended amplitude;
     std::optional<Epoch> start;  ///< t0
     std::optional<Epoch> end;    ///< t1
-    Extended period_years;       ///< of sine and cosine
+    Extended period_years;       ///< period of sine and cosine
 
     bool is_value() const { return kind == Kind::constant || kind == Kind::value; }
     bool holds_at(const Epoch& epoch) const { return !end || (*start <= epoch && epoch < *end); }

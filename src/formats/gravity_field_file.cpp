@@ -81,7 +81,7 @@ class Reader {
       }
       if (words_.empty()) continue;
       if (words_[0].starts_with("end_of_head")) break;
-      // Before begin_of_head there is prose, in which a line may begin with a keyword.
+      // The text before begin_of_head is prose, in which a line may begin with a keyword.
       if (words_[0].starts_with("begin_of_head")) header_.clear();
       static constexpr std::array keywords = {
           "product_type", "modelname",  "product_name", "earth_gravity_constant",
@@ -126,8 +126,7 @@ class Reader {
     return found == header_.end() ? std::nullopt : std::optional(printable(found->second.value));
   }
 
-  /// The keyword's value, which must be one of `right`; the first of them if the keyword is not
-  /// there.
+  /// The value of a keyword, which must be one of `right`; without the keyword, the first of these.
   std::string expect_value(std::string_view keyword, const std::vector<std::string_view>& right) {
     const auto found = header_.find(keyword);
     if (found == header_.end()) return std::string(right[0]);
@@ -140,8 +139,8 @@ class Reader {
     return value;
   }
 
-  /// The positive value of a keyword that has several names, divided by `divisor` to be in
-  /// kilometres.
+  /// The positive value of a keyword that has several names, divided by `divisor`, which converts
+  /// it to kilometres.
   double positive(const std::vector<std::string_view>& keywords, int divisor) {
     for (const std::string_view keyword : keywords) {
       const auto found = header_.find(keyword);
@@ -187,7 +186,7 @@ class Reader {
     coefficients_.try_emplace(*degree, *degree).first->second.add(file_, line_, words_, format_);
   }
 
-  /// C(0,0) is that of the gravity constant, now and always.
+  /// C(0,0) must be 1 and constant, because the mass is given by the gravity constant.
   void check_constant_mass() const {
     const bool is_value = words_[0] == "gfc" || words_[0] == "gfct";
     const int right = is_value ? 1 : 0;
@@ -204,7 +203,7 @@ class Reader {
     if (is_needed && epoch_) field_.epoch = epoch_();
   }
 
-  /// J_n = -C_n0 of what was read, not normalised.
+  /// J_n = -C_n0, not normalised, from the coefficient that was read.
   double J_of(int degree) const {
     const GravityCoefficient& coefficient = coefficients_.at(degree);
     const Extended norm = is_normalized_ ? Extended(sqrt(Extended(2 * degree + 1))) : Extended(1);
@@ -218,9 +217,8 @@ class Reader {
   }
 
   /// A mass whose centre lies at z on the axis attracts with
-  ///   mu / |r - z e| = mu / r (1 + z sin(latitude) / r + ...),
-  /// and the term of degree 1 is mu / r C10 R sin(latitude) / r with the C10 that is not
-  /// normalised.
+  ///   mu / |r - z e| = mu / r (1 + z sin(latitude) / r + ...) ;
+  /// the term of degree 1 is mu / r C10 R sin(latitude) / r, where C10 is not normalised.
   void take_origin() {
     const auto first = coefficients_.find(1);
     if (first == coefficients_.end()) return;
@@ -246,7 +244,8 @@ class Reader {
   std::vector<std::string_view> words_;
   std::map<std::string, HeaderLine, std::less<>> header_;
   bool is_normalized_ = true;
-  std::map<int, GravityCoefficient> coefficients_;  ///< C(1,0) and those that are asked for
+  /// C(1,0) and the coefficients that are asked for.
+  std::map<int, GravityCoefficient> coefficients_;
   GravityField field_;
 };
 

@@ -33,7 +33,7 @@ bool has_summary(const std::filesystem::path& directory) {
   return std::filesystem::exists(directory / "summary.json", none);
 }
 
-/// What may stand in place of a summary, for formats of polynomials alone.
+/// What the user may give in place of a summary, for formats of polynomials alone.
 std::string how_to_describe(const OutputFormat& format) {
   if (format.read_polynomials == nullptr) return "";
   std::vector<std::string> options;
@@ -115,7 +115,7 @@ StoredJet read_jet_file(const std::filesystem::path& path, const std::optional<s
   if (std::filesystem::is_directory(path, none) || (!exists && format == nullptr)) {
     return read_stored_jet(path, label);
   }
-  // By its ending it would be a file, and is missing as such.
+  // The ending says that the path means a file, so that the message is about a missing file.
   if (!exists) (void)read_text_file(path, largest_jet_bytes);
   if (format == nullptr) {
     throw Error(ErrorKind::input_output,
@@ -127,7 +127,8 @@ StoredJet read_jet_file(const std::filesystem::path& path, const std::optional<s
                 fmt::format("{}: cannot be read: not a regular file", printable_path(path)));
   }
   if (format->read == nullptr) return read_beside_summary(path, *format, label);
-  if (!format->is_built()) (void)format->read({}, {}, {});  // throws, saying how to get it
+  if (!format->is_built())
+    (void)format->read({}, {}, {});  // throws an error that says how to get the library
   return format->read(printable_path(path), read_text_file(path, largest_jet_bytes), label);
 }
 

@@ -17,11 +17,12 @@
 namespace hamjet::io {
 namespace {
 
-/// The decimal exponents of binary128 stay below this; a larger one would keep the parser busy.
+/// The decimal exponents of binary128 stay below this; a larger exponent would keep the parser busy
+/// for long.
 constexpr unsigned largest_exponent = 5000;
 constexpr std::size_t longest_number = 100;
 
-/// Length of the run of digits at the start.
+/// Length of the sequence of digits at the start.
 std::size_t digits(std::string_view text) {
   return std::min(text.find_first_not_of("0123456789"), text.size());
 }
@@ -37,8 +38,9 @@ std::string_view without_blanks(std::string_view text) {
   throw Error(ErrorKind::input_output, fmt::format("{}:{}: {}", name, line, what));
 }
 
-/// Whether a name is short and ends in a unit that one of the columns has. What is quoted of a
-/// header must look like one: the file may be any other, whose content is nobody's business.
+/// Whether a name is short and ends in a unit that one of the columns has. Names of a header are
+/// quoted only if they look like this: the file may be any other file, whose content must not
+/// appear in messages.
 bool has_unit_of(std::string_view name, const std::vector<std::string_view>& columns) {
   constexpr std::size_t longest = 24;
   const std::size_t unit = name.find('_');
@@ -47,7 +49,7 @@ bool has_unit_of(std::string_view name, const std::vector<std::string_view>& col
                      [&](std::string_view column) { return column.ends_with(name.substr(unit)); });
 }
 
-/// For each column of the file the place of its name in `columns`.
+/// For each column of the file, the place of its name in `columns`.
 std::vector<std::size_t> places(const std::string& name,
                                 const std::vector<std::string_view>& header,
                                 const std::vector<std::string_view>& columns) {
@@ -94,7 +96,7 @@ std::optional<double> finite_number(std::string_view text) {
     return static_cast<std::size_t>(rest - whole.data());
   };
   std::size_t end = read(text);
-  // Fortran writes the exponent of double precision behind a D.
+  // Fortran writes the exponent of double precision after a D.
   const bool has_d = end > 0 && end < text.size() && (text[end] == 'D' || text[end] == 'd');
   if (has_d && text.size() <= longest_number) {
     std::string with_e(text);
@@ -195,7 +197,7 @@ NumberTable NumberTableReader::read(std::size_t most_rows) {
       add_row(part);
       continue;
     }
-    // Empty lines at the end are no rows; others are, and have too few columns.
+    // Empty lines at the end are not rows; empty lines elsewhere are rows with too few columns.
     const std::size_t first_empty = line_number_;
     bool has_more = true;
     while (line_.empty() && (has_more = next_line())) {

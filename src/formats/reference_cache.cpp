@@ -15,7 +15,7 @@
 namespace hamjet::io {
 namespace {
 
-/// 36 significant digits bring back the same number of 113 bits.
+/// 36 significant digits bring back the same 113-bit number.
 std::string text_of(const Extended& value) { return value.str(36, std::ios_base::scientific); }
 
 std::string hash_of(const std::string& text) {
@@ -39,7 +39,7 @@ nlohmann::json json_of(const std::string& key, const ReferenceResult& reference)
           {"tolerance", reference.tolerance}};
 }
 
-/// The reference in a cached file; throws if anything is not as it was written.
+/// The reference in a cached file; throws unless everything is as it was written.
 ReferenceResult reference_of(const nlohmann::json& json, const SpacePointer& space) {
   ReferenceResult result;
   for (const nlohmann::json& numbers : json.at("jet")) {
@@ -103,7 +103,7 @@ void ReferenceCache::save(const std::string& key, const ReferenceResult& referen
     json["hash"] = hash_of(json.dump());
     write_whole_file(file_of(key), json.dump());
   } catch (const Error&) {
-    // A full or read-only disk: the reference is computed again next time.
+    // The disk is full or read-only: the reference will be computed again next time.
   }
 }
 

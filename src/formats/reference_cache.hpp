@@ -7,16 +7,16 @@
 
 namespace hamjet::io {
 
-/// References kept in a directory, a file each, named by a hash of its key (SHA-1, as a version 5
-/// UUID). The key stands in the file too, so that another key of the same hash finds nothing, and a
-/// hash of all its content. A file that is damaged counts as missing; one that cannot be written is
-/// not kept.
+/// References that are kept in a directory, one file for each, named by a hash of its key (SHA-1,
+/// as a version 5 UUID). The file also holds the key itself, so that another key with the same hash
+/// is not mistaken for it, and a hash of the whole content. A damaged file counts as missing; a
+/// file that cannot be written is skipped.
 class ReferenceCache : public ReferenceStore {
  public:
   explicit ReferenceCache(std::filesystem::path directory) : directory_(std::move(directory)) {}
 
-  /// $XDG_CACHE_HOME/hamjet/references, else ~/.cache/hamjet/references; empty where neither is
-  /// known: nothing is kept then.
+  /// $XDG_CACHE_HOME/hamjet/references or ~/.cache/hamjet/references. If neither is known, the path
+  /// is empty and nothing is kept.
   static std::filesystem::path user_directory();
 
   std::optional<ReferenceResult> load(const std::string& key, const SpacePointer& space) override;

@@ -9,15 +9,15 @@
 
 namespace hamjet::io {
 
-/// A frame and its derivatives as scenes name them: "RTN" or "inertial"; "rotating", "inertial" or,
-/// where the axes do not turn, empty.
+/// A frame in the words of scenes, "RTN" or "inertial", and its derivatives: "rotating", "inertial"
+/// or, where the axes do not turn, an empty text.
 std::string_view frame_name(RelativeFrame frame);
 std::string_view derivatives_name(RelativeFrame frame);
 
 /// A frame in words: "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
 std::string frame_text(RelativeFrame frame);
 
-/// Which velocities a frame's are: "as seen from the turning RTN axes" and the like.
+/// Which velocities a frame has: "as seen from the turning RTN axes" and the like.
 std::string_view velocities_text(RelativeFrame frame);
 
 /// Letters of the three axes: R, T, N or x, y, z.
@@ -25,16 +25,17 @@ std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
 
-/// Why automatic coordinates are what they are: "auto: furthest, 162 km; cartesian 6.04 km, ..." of
-/// the others; empty for coordinates that were named.
+/// The reason for a choice of automatic coordinates: "auto: furthest, 162 km; cartesian 6.04 km,
+/// ...". Empty for coordinates that the scene names.
 std::string choice_text(const ChosenCoordinates& coordinates);
 
-/// What stands behind the frame where polynomials are in other coordinates than Cartesian ones, or
-/// where the coordinates were chosen, which is then said; else nothing.
+/// The text that follows the frame where polynomials are not in Cartesian coordinates, or where the
+/// coordinates were chosen automatically; otherwise empty.
 std::string coordinates_text(const ChosenCoordinates& coordinates);
 
-/// A scene's kind of generating function for transfers, or that there is none: polynomials in other
-/// coordinates are solved for momenta by Newton's method, and a kind that is asked for is not used.
+/// The scene's kind of generating function for transfers, or a statement that none is used. In
+/// coordinates other than Cartesian, Newton's method finds the momenta, and a requested kind is not
+/// used.
 std::string transfer_kind_text(const std::string& kind, const CoordinatesAtEnds& coordinates);
 
 }  // namespace hamjet::io

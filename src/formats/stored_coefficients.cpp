@@ -49,7 +49,7 @@ class CoefficientReader {
     }
   }
 
-  /// Checks the number of rows before anything is allocated: a damaged order could ask for
+  /// Checks the number of rows before anything is allocated, because a damaged order could ask for
   /// gigabytes.
   void check_length(std::string_view rows) {
     const double expected =
@@ -125,7 +125,7 @@ class CoefficientReader {
   SpacePointer space_;
   FlowJet<Extended> jet_;
   std::size_t line_ = 1;
-  std::vector<std::size_t> lines_;  ///< in which line each coefficient stands
+  std::vector<std::size_t> lines_;  ///< the line of each coefficient
   std::vector<std::string_view> fields_;
   std::vector<std::uint8_t> exponents_;
 };

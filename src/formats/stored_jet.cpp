@@ -41,14 +41,14 @@ std::vector<double> state(const JsonReader& value, const std::vector<std::size_t
   return numbers;
 }
 
-/// The sizes that a state of this model can have.
+/// The possible sizes of a state of this model.
 std::vector<std::size_t> dimensions(SystemModel model) {
   std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
   for (std::size_t& size : sizes) size *= 2;
   return sizes;
 }
 
-/// Indices of variables, which must ascend as the writer's do.
+/// Indices of variables, which must ascend as the writer has them.
 std::vector<std::size_t> indices(const JsonReader& value,
                                  const std::vector<std::string_view>& names) {
   const auto result = value.list([&](const JsonReader& name) { return name.index_in(names); });
@@ -59,7 +59,7 @@ std::vector<std::size_t> indices(const JsonReader& value,
   return result;
 }
 
-/// A label is the name of a folder; a damaged one must not lead elsewhere.
+/// A label is the name of a folder; a damaged label must not lead elsewhere.
 void require_plain(const JsonReader& label) {
   const std::string text = label.text();
   if (text.empty() || text[0] == '.' || text.find_first_of(std::string("/\0", 2)) != text.npos) {
@@ -67,7 +67,7 @@ void require_plain(const JsonReader& label) {
   }
 }
 
-/// The run that is wanted; what is wrong with it is refused.
+/// The wanted run; a run that failed is refused.
 JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& label) {
   const auto runs = root.at("runs").list([](const JsonReader& run) { return run; });
   std::vector<std::string> labels;
@@ -88,7 +88,7 @@ JsonReader choose_run(const JsonReader& root, const std::optional<std::string>& 
                                             suggestion(*label, {labels.begin(), labels.end()})));
 }
 
-/// Relative errors by degree: measured against a reference, else estimated without one.
+/// Relative errors by degree: measured against a reference or, without one, estimated.
 std::vector<double> coefficient_errors(const JsonReader& run) {
   for (const char* key : {"error_by_degree", "error_estimate_by_degree"}) {
     if (!run.has(key) || run.at(key).is_null()) continue;
@@ -127,9 +127,9 @@ int StoredJet::momentum_exponent() const {
 
 namespace {
 
-/// What a summary says of a run, but for the coefficients.
+/// What a summary says about a run, apart from the coefficients.
 struct DescribedRun {
-  StoredJet stored;  ///< at the duration
+  StoredJet stored;  ///< description of the jet at the duration
   int order = 0;
   JsonReader json;
 };
@@ -154,7 +154,7 @@ DescribedRun read_description(const JsonReader& root, const std::optional<std::s
   }
   const int order = root.at("order").integer<int>();
   const JsonReader count = root.at("coefficients_per_component");
-  // The count is a product of quotients, exact but for its last digits.
+  // The canonical duration is a product of quotients, exact but for its last digits.
   if (order < 1 || order > 60 ||
       count.number() != std::round(SeriesSpace::monomial_count(stored.variables.size(), order))) {
     count.fail(fmt::format("is not the number of coefficients of order {} in {} variables", order,
@@ -177,7 +177,7 @@ std::vector<JsonReader> jets_before(const JsonReader& run) {
   });
 }
 
-/// The description of one of them.
+/// The description of the jet at one of these times.
 DescribedRun at_time(const DescribedRun& run, const JsonReader& jet) {
   DescribedRun one = run;
   one.stored.duration = finite_number(jet.at("time_canonical"));
@@ -205,8 +205,8 @@ StoredJet with_coefficients(DescribedRun run, const std::filesystem::path& file,
   return std::move(stored);
 }
 
-/// The files of a directory of results, whose checksums are judged at the end, for the reader's own
-/// checks say better what is wrong.
+/// Reads files of a directory of results. Their checksums are judged at the end, because the
+/// reader's own checks describe a fault better.
 template <class Read>
 auto read_verified(const std::filesystem::path& directory, const Read& read) {
   ResultSet set(directory, "summary.json");
@@ -254,7 +254,7 @@ StoredFlowBox read_flow_box(const JsonReader& json) {
   return box;
 }
 
-/// The description of a run's polynomials in its scene's coordinates.
+/// The description of a run's polynomials in the coordinates of its scene.
 DescribedRun with_polynomials(const DescribedRun& run, const JsonReader& json) {
   DescribedRun one = run;
   const std::vector<std::string_view> names(jet_coordinates_names.begin(),

@@ -11,14 +11,15 @@
 
 namespace hamjet::io {
 
-/// Where the coefficients of a stored jet stand, and how they are read.
+/// The place of the coefficients of a stored jet, and the function that reads them.
 struct CoefficientSource {
-  std::filesystem::path file;  ///< empty: the run's jet.csv
+  std::filesystem::path file;  ///< empty for the run's jet.csv
   std::function<FlowJet<Extended>(const CoefficientFile&, std::string_view text)> read;
-  std::string time_folder = {};  ///< of the run's jet at a time before the duration; else empty
+  std::string time_folder =
+      {};  ///< folder of the run's jet at a time before the duration; otherwise empty
 };
 
-/// read_stored_jet of stored_jet.hpp with coefficients from another file or format.
+/// read_stored_jet of stored_jet.hpp, with coefficients from another file or format.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label, const FileReader& read,
                           const CoefficientSource& source);

@@ -7,7 +7,7 @@
 #include "jet_description.hpp"
 #include "stored_coefficients.hpp"
 
-// Polynomials in other coordinates than Cartesian, as results keep them.
+// Polynomials in coordinates other than Cartesian, as results keep them.
 
 namespace hamjet::io {
 namespace {
@@ -35,7 +35,8 @@ SeriesNames series_names(const StoredJet& stored) {
     const auto all = flow_box_coordinate_names(section);
     names.all.assign(all.begin(), all.end());
     names.variables = range(1, 1 + section.variables());
-    // What a section ignores is a value beside those that are variables too.
+    // The coordinate that a section ignores is a value, beside the coordinates that are also
+    // variables.
     names.components = range(2, all.size());
     names.components.insert(names.components.begin(), 0);
     return names;

@@ -11,7 +11,7 @@
 
 namespace hamjet {
 
-/// The space of an arc behind the first: all components vary.
+/// The space of an arc after the first one, in which all components vary.
 template <class Real>
 SpacePointer arc_space(const FlowProblem<Real>& problem) {
   const std::size_t dimension = problem.system->dimension();
@@ -19,8 +19,8 @@ SpacePointer arc_space(const FlowProblem<Real>& problem) {
   return SeriesSpace::create(dimension, problem.space->order());
 }
 
-/// Multiply-adds of numbers in one composition: Horner's scheme on lanes that are filled up, the
-/// energy along the inner map, and the rotation.
+/// Multiply-adds of numbers in one composition. They include Horner's scheme, whose lanes are
+/// filled up, the energy along the inner map, and the rotation.
 template <class Real>
 double composition_cost(const FlowProblem<Real>& problem) {
   const double components = static_cast<double>(problem.system->dimension());
@@ -34,16 +34,16 @@ double composition_cost(const FlowProblem<Real>& problem) {
          components * components * static_cast<double>(problem.space->size());
 }
 
-/// The plan for arcs of a problem whose nominal takes so many steps.
+/// The plan for arcs of a problem whose nominal takes this number of steps.
 template <class Real>
 ArcPlan plan_for(const FlowProblem<Real>& problem, const ArcIntegrator<Real>& arcs,
                  const std::optional<std::size_t>& asked, long steps) {
   const StepCost first = arcs.cost(*problem.space);
   const StepCost later = arcs.cost(*arc_space(problem));
-  // What is not split leaves symmetries out, which arcs from a cut on cannot.
+  // An unsplit integration leaves symmetries out; arcs that start from a cut cannot.
   const auto reduction = SymmetryReduction<Real>::of(problem);
   const StepCost unsplit = reduction ? arcs.cost(*reduction->problem().space) : first;
-  // A fifth of the nominal's time alone goes into its own update and checkpoints.
+  // Updating the nominal and keeping checkpoints adds a fifth to the nominal's time.
   return make_arc_plan(asked, steps,
                        {first.nominal, 0.8 * first.nominal + unsplit.series, first.arc, later.arc,
                         composition_cost(problem)});

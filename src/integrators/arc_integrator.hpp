@@ -13,12 +13,12 @@ namespace hamjet {
 
 /// Multiply-adds of one step.
 struct StepCost {
-  double nominal = 0;  ///< of the nominal alone, weighed by their time relative to products
-  double series = 0;   ///< of the degrees above 0
-  double arc = 0;      ///< of a step of an arc, which takes the nominal from a checkpoint
+  double nominal = 0;  ///< cost of the nominal alone, weighed by its time relative to products
+  double series = 0;   ///< cost of the degrees above 0
+  double arc = 0;      ///< cost of a step of an arc, which takes the nominal from a checkpoint
 };
 
-/// One method for integrate_in_arcs. After run_nominal the other functions may be called from
+/// One method, for integrate_in_arcs. After run_nominal, the other functions may be called from
 /// several threads at once.
 template <class Real>
 class ArcIntegrator {
@@ -28,15 +28,16 @@ class ArcIntegrator {
   ArcIntegrator& operator=(const ArcIntegrator&) = delete;
   virtual ~ArcIntegrator() = default;
 
-  /// Integrates the nominal to its end, in jets of order 0, keeping checkpoints.
+  /// Integrates the nominal to its end, as jets of order 0, and keeps checkpoints.
   virtual FlowJet<Real> run_nominal(IntegrationStatistics& statistics,
                                     const StepObserver<Real>& observer) = 0;
   virtual std::size_t checkpoints() const = 0;
-  /// Steps taken before a checkpoint.
+  /// The number of steps taken before a checkpoint.
   virtual long step(std::size_t checkpoint) const = 0;
   /// The nominal at a checkpoint.
   virtual const std::vector<Real>& state(std::size_t checkpoint) const = 0;
-  /// Takes the steps from a checkpoint to the `last`-th of the whole, on a jet about its state.
+  /// Takes the steps from a checkpoint to step number `last` of the whole integration, with a jet
+  /// about the checkpoint's state.
   virtual FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
                                 const std::vector<std::size_t>& variables,
                                 const FlowJet<Real>& start, IntegrationStatistics& statistics,
@@ -44,8 +45,8 @@ class ArcIntegrator {
   virtual StepCost cost(const SeriesSpace& space) const = 0;
 };
 
-/// Checkpoints at equal numbers of steps: of every step at first, then of every second and so on,
-/// so that there are never more than a few thousand.
+/// Checkpoints at equal numbers of steps: at first after every step, later after every second and
+/// so on, so that there are never more than a few thousand.
 template <class Checkpoint>
 class CheckpointList {
  public:
@@ -60,7 +61,7 @@ class CheckpointList {
     stride_ *= 2;
   }
   std::size_t size() const { return list_.size(); }
-  /// Whether every step has its checkpoint.
+  /// Whether there is a checkpoint after every step.
   bool has_all() const { return stride_ == 1; }
   const Checkpoint& operator[](std::size_t i) const { return list_[i]; }
 
@@ -80,7 +81,7 @@ FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   return result;
 }
 
-/// The problem of an arc, from a checkpoint's state on.
+/// The problem of an arc that starts from a checkpoint's state.
 template <class Real>
 FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
                               const SpacePointer& space, const std::vector<std::size_t>& variables,

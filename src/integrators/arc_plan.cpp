@@ -7,21 +7,21 @@
 namespace hamjet {
 namespace {
 
-/// Below this speed-up on so many threads a flow is not split: the jet's digits depend on the arcs,
-/// and may not on the machine's threads.
+/// A flow is not split if the speed-up on this number of threads is below this number: the digits
+/// of the jet depend on the arcs, and must not depend on the number of the machine's threads.
 constexpr double least_speed_up = 1.5;
 constexpr std::size_t threads_of_choice = 4;
-/// Largest part of the whole work that composing more than two arcs may take.
+/// Largest fraction of the whole work that the composition of more than two arcs may take.
 constexpr double composing_share = 0.02;
 
 std::size_t quotient_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
 
-/// Unsplit time over split time, tasks of equal cost being shared out among threads.
+/// The ratio of unsplit to split time, if tasks of equal cost are shared out among threads.
 double speed_up(std::size_t arcs, std::size_t threads, double steps, const ArcCosts& costs) {
   if (arcs <= 1) return 1;
   const double whole = steps * costs.step;
   const double length = steps / static_cast<double>(arcs);
-  // The first arc is expanded in the scene's variables only.
+  // Only the first arc is expanded in the scene's variables alone.
   const double rounds = static_cast<double>(quotient_up(arcs, threads));
   double time = steps * costs.nominal + length * rounds * costs.later_arcs;
   if (threads == 1) time += length * (costs.first_arc - costs.later_arcs);

@@ -44,7 +44,7 @@ std::unique_ptr<ArcIntegrator<Real>> make_arcs(const FlowProblem<Real>& problem,
                              splitting_of<Real>(std::get<SymmetricCompositionSettings>(method)));
 }
 
-/// Integrates a problem unsplit, with the method's steps as they are given.
+/// Integrates a problem unsplit, with the steps that the method's settings give.
 template <class Real>
 FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const SplittableMethod& method) {
   IntegrationStatistics statistics;
@@ -61,7 +61,7 @@ FlowJet<Real> integrate_unsplit(const FlowProblem<Real>& problem, const Splittab
       problem, std::get<SymmetricCompositionSettings>(method), statistics);
 }
 
-/// A method with its local tolerance chosen, where it has one.
+/// A method with its local tolerance chosen, if it has one.
 template <class Real>
 SplittableMethod with_step_tolerance(const FlowProblem<Real>& problem, SplittableMethod method,
                                      std::size_t threads, StepTolerance<Real>& choice) {
@@ -108,18 +108,19 @@ class ArcSplitting {
   }
 
  private:
-  /// The nominal's part of the reported progress; it takes a few hundredths of the time.
+  /// The nominal's share in the reported progress; it takes a few hundredths of the time.
   static constexpr double nominal_share = 0.05;
 
   void report(double fraction) const {
     if (progress_) progress_(std::min(fraction, 1.0));
   }
 
-  /// By how much the error of a composed jet may exceed that of the unsplit one.
+  /// The error of a composed jet may exceed that of the unsplit one by at most this factor.
   static constexpr double allowed_loss = 10;
 
-  /// Where the composed jet has lost digits; empty if along two lines, on which the unsplit flow is
-  /// cheap, it is as near to a finer integration as the unsplit one, at every degree.
+  /// A message where the composed jet has lost digits, otherwise an empty text. Along two lines, on
+  /// which the unsplit flow is cheap, both jets are compared with a finer integration at every
+  /// degree.
   std::string lost_digits(const FlowJet<Real>& jet) const {
     const DirectionalFlow<Real> flow(problem_, 2);
     const GaussSettings* gauss = std::get_if<GaussSettings>(&method_);
@@ -127,7 +128,7 @@ class ArcSplitting {
     typename DirectionalFlow<Real>::Lines unsplit = choice_.lines;
     typename DirectionalFlow<Real>::Lines exact;
     if (!unsplit.empty()) {
-      // The choice of the tolerance has integrated the same lines with the same steps.
+      // The choice of the tolerance has already integrated the same lines with the same steps.
       for (const JetAlongLine<Real>& line : choice_.finer_lines) exact.push_back(line.jet);
     } else {
       const GaussSettings finer = finer_gauss<Real>(
@@ -140,7 +141,7 @@ class ArcSplitting {
     }
     const std::vector<double> own = flow.relative_difference(unsplit, exact);
     const std::vector<double> composed = flow.relative_difference(flow.restrict(jet), exact);
-    // A full jet rounds more than a line does: up to the tolerance that is no loss.
+    // A full jet has more rounding than a line; up to the tolerance this is no loss.
     const double unit = gauss != nullptr && gauss->tolerance ? *gauss->tolerance : 8 * rounding;
     const double unseen = std::max(unit, 8 * rounding) * std::max(1.0, statistics_.periods);
     for (std::size_t d = 1; d < own.size(); ++d) {
@@ -153,7 +154,7 @@ class ArcSplitting {
     return {};
   }
 
-  /// Refuses the number of arcs that was asked for; where it is free, takes one arc.
+  /// Refuses a requested number of arcs; if the number is free, integrates in one arc.
   FlowJet<Real> stay_unsplit(const std::string& loss, const FlowJet<Real>& nominal) {
     if (settings_.arcs) {
       throw Error(ErrorKind::numerical,
@@ -180,16 +181,17 @@ class ArcSplitting {
           report(nominal_share * static_cast<double>(Real(time / problem_.duration)));
         });
     arc_statistics_.nominal_seconds = statistics_.wall_seconds;
-    // What an explicit method counts as evaluations on series were on plain numbers here.
+    // An explicit method counts evaluations as if they were on series; here they were on plain
+    // numbers.
     if (statistics_.nominal_evaluations == 0) {
       statistics_.nominal_evaluations = statistics_.vector_field_evaluations;
     }
-    statistics_.vector_field_evaluations = 0;  // on series: none so far
+    statistics_.vector_field_evaluations = 0;  // no evaluations on series so far
     statistics_.series_work = {};
     return end;
   }
 
-  /// Chooses the checkpoints at which the arcs start, as near as there are to equal numbers of
+  /// Chooses the checkpoints at which the arcs start, so that the arcs have nearly equal numbers of
   /// steps.
   void choose_cuts() {
     std::size_t place = 0;
@@ -206,7 +208,7 @@ class ArcSplitting {
     arc_statistics_.plan.arcs = cuts_.size();
   }
 
-  /// One arc, with the symmetries left out that can be.
+  /// A single arc, in which symmetries are left out where possible.
   FlowJet<Real> run_whole(IntegrationStatistics& whole, const std::function<void()>& after_step) {
     const auto reduction = SymmetryReduction<Real>::of(problem_);
     if (!reduction) {
@@ -260,10 +262,10 @@ class ArcSplitting {
     return jets;
   }
 
-  /// Composes neighbouring maps in pairs, then pairs of these, and so on.
+  /// Composes neighbouring maps in pairs, then pairs of the results, and so on.
   FlowJet<Real> compose_all(std::vector<FlowJet<Real>> maps) {
     const IntegrationClock clock;
-    std::vector<std::size_t> starts(maps.size());  // the arc with which each map starts
+    std::vector<std::size_t> starts(maps.size());  // the first arc of each map
     std::iota(starts.begin(), starts.end(), std::size_t{0});
     while (maps.size() > 1) {
       std::vector<FlowJet<Real>> composed((maps.size() + 1) / 2);
@@ -292,14 +294,15 @@ class ArcSplitting {
 
   const FlowProblem<Real>& problem_;
   const SplittableMethod& method_;
-  const StepTolerance<Real>& choice_;  ///< of the method
+  const StepTolerance<Real>& choice_;  ///< tolerance of the method
   ArcIntegrator<Real>& arcs_;
   const ArcSettings& settings_;
   IntegrationStatistics& statistics_;
   ArcStatistics& arc_statistics_;
   const ArcProgress& progress_;
-  std::vector<std::size_t> cuts_;  ///< checkpoints, the first at the start
-  std::vector<std::unique_ptr<CutCoordinates<Real>>> coordinates_;  ///< of each arc but the first
+  std::vector<std::size_t> cuts_;  ///< checkpoints; the first one is at the start
+  /// Coordinates of each arc except the first.
+  std::vector<std::unique_ptr<CutCoordinates<Real>>> coordinates_;
 };
 
 void validate_arcs(const std::optional<std::size_t>& arcs, std::size_t threads) {
@@ -319,7 +322,7 @@ FlowJet<Real> integrate_in_arcs(const FlowProblem<Real>& problem, const Splittab
   statistics = {};
   arc_statistics = {};
   if (problem.duration == 0) {
-    make_arcs(problem, method);  // throws for settings out of range
+    make_arcs(problem, method);  // throws if settings are out of range
     arc_statistics.plan.reason = "the duration is zero";
     return starting_jet(problem);
   }

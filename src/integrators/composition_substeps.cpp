@@ -10,8 +10,8 @@ namespace hamjet {
 namespace {
 
 // The first half and the middle of each symmetric sequence. The order conditions were solved to 80
-// digits from the printed values. With 9 and 17 substeps they leave one number free, by which the
-// authors made the error small: the first one, taken as it is printed.
+// digits, starting from the printed values. With 9 and 17 substeps they leave one number free, with
+// which the authors made the error small: the first substep, which is taken as printed.
 
 /// Suzuki (1990): gamma_1 = 1/(4 - 4^(1/3)).
 const std::vector<const char*> suzuki_order_4 = {

@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-/// Ends a task because another one failed; never leaves run_concurrently.
+/// Ends a task because another one failed; it never leaves run_concurrently.
 struct Abandoned {};
 
 constexpr std::chrono::milliseconds between_polls{20};
@@ -39,7 +39,7 @@ class SharedControl : public TaskControl {
     if (is_ending_.load(std::memory_order_relaxed)) throw Abandoned{};
   }
 
-  /// Runs tasks until none is left: what each thread does.
+  /// The work of each thread: runs tasks until none is left.
   void work() {
     while (!is_ending_) {
       const std::size_t i = next_++;
@@ -57,7 +57,7 @@ class SharedControl : public TaskControl {
     changed_.notify_all();
   }
 
-  /// Waits until that many threads have ended.
+  /// Waits until this number of threads have ended.
   void wait(std::size_t threads, const std::function<void(long)>& poll) {
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, between_polls, [&] { return ended_ == threads; })) {
@@ -106,7 +106,7 @@ std::size_t run_concurrently(std::size_t count, std::size_t threads,
     try {
       for (std::size_t t = 0; t < threads; ++t) workers.emplace_back([&] { control.work(); });
     } catch (const std::system_error&) {
-      // No more threads can be started: those that run do the work.
+      // No more threads can be started, so that the running threads do the work.
     }
     if (workers.empty()) return run_alone(count, task, poll);
     control.wait(workers.size(), poll);

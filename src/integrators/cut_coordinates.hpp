@@ -21,24 +21,26 @@ namespace hamjet {
 ///
 ///   w_1 = (H(z* + x) - H(z*)) / |S g| ,   w_i = Q_i . S^-1 x  (i >= 2) ,   g = grad H(z*) ,
 ///
-/// S diagonal, 1 for positions and momentum_scale for momenta, so that the coordinates do not
-/// depend on units; Q orthogonal with Q_1 along S g and Q_2 along the flow S^-1 J g.
+/// with S diagonal, 1 for positions and momentum_scale for momenta, so that the coordinates do not
+/// depend on units, and Q orthogonal, with Q_1 along S g and Q_2 along the flow S^-1 J g.
 ///
-/// Why not x itself: a flow shears along itself at a rate that depends on the energy. Deviations of
-/// size 1 at the start are of size k = the elapsed time at the cut, along the flow, and the map
-/// behind turns a change of energy into k times itself. In x the two meet as terms of degree d and
-/// size k^(2d) whose sum has size k^d: over 60 revolutions, order 4, no digit is left. In w the
-/// long direction and the energy are two variables, with small coefficients and large arguments or
-/// the other way round, and nothing cancels. (Rotating alone is not enough: straight along the flow
-/// the energy changes in second order.) Composed jets then have the error of the unsplit one.
+/// The deviations x themselves would not serve, because a flow shears along itself at a rate that
+/// depends on the energy. Deviations of size 1 at the start have a size of about the elapsed time k
+/// at the cut, along the flow, and the map behind the cut multiplies a change of energy by k. In x
+/// both effects meet as terms of degree d and size k^(2d) whose sum has size k^d: over 60
+/// revolutions at order 4 no digit is left. In w the long direction and the energy are separate
+/// variables, one with small coefficients and large arguments and the other the reverse, so that
+/// nothing cancels. (A rotation of x is not enough: along a straight line in the direction of the
+/// flow the energy changes in second order.) Composed jets then have the error of the unsplit jet.
 ///
-/// H is a coordinate as far as its second-order terms are smaller than its linear ones. Near an
-/// equilibrium that is not far, much less than the vector field takes to change: there, where the
-/// motion is nearly linear and shears little, and for linear systems, w = S^-1 x.
+/// H serves as a coordinate as far as its second-order terms are smaller than its linear ones. Near
+/// an equilibrium this distance is much smaller than that over which the vector field changes.
+/// There the motion is nearly linear and shears little, and w = S^-1 x is used, as for linear
+/// systems.
 template <class Real>
 class CutCoordinates {
  public:
-  /// `space` has as many variables as the system has components.
+  /// `space` must have as many variables as the system has components.
   CutCoordinates(const DynamicalSystem& system, const std::vector<Real>& state,
                  const SpacePointer& space)
       : system_(&system),
@@ -72,7 +74,7 @@ class CutCoordinates {
       SliceEvaluator<Real, Real> energy(system_->hamiltonian, space, order);
       for (std::size_t i = 0; i < n_; ++i) {
         std::copy_n(jet[i].coefficients().data(), space->first(order + 1), energy.input(i));
-        // Rounding may have left the nominal of the jet a little beside the cut.
+        // Because of rounding, the nominal of the jet may be slightly off the cut.
         *energy.input(i) = state_[i];
       }
       energy.evaluate_all();
@@ -84,7 +86,8 @@ class CutCoordinates {
   }
 
  private:
-  /// H is a coordinate if it reaches this part of the distance over which the field changes.
+  /// H serves as a coordinate if it does so over this fraction of the distance over which the field
+  /// changes.
   static constexpr double smallest_reach = 0.1;
 
   const Real& scale(std::size_t i) const { return i < n_ / 2 ? position_scale_ : momentum_scale_; }
@@ -93,7 +96,7 @@ class CutCoordinates {
   }
 
   void find_axes() {
-    // A power of two, so that scaling rounds nothing.
+    // The scale is a power of two, so that scaling rounds nothing.
     momentum_scale_ = Real(
         std::exp2(std::round(std::log2(momentum_scale(*system_, std::span<const Real>(state_))))));
     SliceEvaluator<Real, Real> energy(system_->hamiltonian, space_, 0);
@@ -108,7 +111,7 @@ class CutCoordinates {
       plane(row, 0) = energy.output_gradient(0, i) * scale(i);
       plane(row, 1) = (i < half ? turned : Real(-turned)) / scale(i);
     }
-    // Householder's reflections: orthogonal whatever the columns are.
+    // Householder's reflections give an orthogonal matrix for any columns.
     axes_ = plane.householderQr().householderQ() * Matrix<Real>::Identity(n_, n_);
     slope_ = 0;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -116,7 +119,8 @@ class CutCoordinates {
     }
   }
 
-  /// Forms x(w): the slices of x_1 from those of H below, by H(z* + x(w)) = H(z*) + |S g| w_1.
+  /// Forms x(w) degree by degree: the slices of x_1 follow from the lower slices of H, by H(z* +
+  /// x(w)) = H(z*) + |S g| w_1.
   void form_start() {
     form_linear_start();
     uses_energy_ = order_ >= 2 && slope_ != 0 && !system_->vector_field.is_linear_system();
@@ -157,8 +161,8 @@ class CutCoordinates {
     }
   }
 
-  /// Whether H serves as a coordinate; `energy` has its slices of degree 1 and 2 on the linear
-  /// x(w).
+  /// Whether H serves as a coordinate; `energy` must have its slices of degree 1 and 2 on the
+  /// linear x(w).
   bool is_coordinate(const SliceEvaluator<Real, Real>& energy) const {
     double curvature = 0;
     for (std::size_t k = space_->first(2); k < space_->first(3); ++k) {
@@ -168,9 +172,9 @@ class CutCoordinates {
     return std::isfinite(curvature) && slope >= smallest_reach * field_reach() * curvature;
   }
 
-  /// The distance, in w, over which the vector field f changes by as much as in linear order:
-  /// the least of (|f_1| / |f_d|)^(1/(d-1)) over the degrees d, f_d the largest coefficient of the
-  /// degree on the linear x(w), scaled.
+  /// The distance, in w, over which the vector field f changes by as much as its linear part: the
+  /// least of (|f_1| / |f_d|)^(1/(d-1)) over the degrees d, where f_d is the largest coefficient of
+  /// the degree on the linear x(w), scaled.
   double field_reach() const {
     SliceEvaluator<Real, Real> field(system_->vector_field, space_, order_);
     for (std::size_t i = 0; i < n_; ++i) {
@@ -203,7 +207,7 @@ class CutCoordinates {
   std::size_t n_;
   Real position_scale_ = 1;
   Real momentum_scale_ = 1;
-  Matrix<Real> axes_;  ///< Q, its columns
+  Matrix<Real> axes_;  ///< the columns of Q
   Real slope_ = 0;     ///< the component of S g along the first axis: |S g| up to its sign
   bool uses_energy_ = false;
   FlowJet<Real> start_;

@@ -28,8 +28,8 @@ const char* method_name(CvodeMethod method) {
   return method == CvodeMethod::adams ? "CVODE Adams" : "CVODE BDF";
 }
 
-/// One integration. The static functions are called by CVODE, with this object as user data; no
-/// exception may pass through CVODE, so they are kept and thrown afterwards.
+/// One integration. CVODE calls the static functions, with this object as user data. No exception
+/// may pass through CVODE, so that exceptions are kept and thrown afterwards.
 class CvodeIntegration {
  public:
   CvodeIntegration(const FlowProblem<double>& problem, const CvodeSettings& settings,
@@ -86,7 +86,7 @@ class CvodeIntegration {
     const double before = time_;
     require(CVode(memory_.get(), problem_.duration, state_.get(), &time_, CV_ONE_STEP));
     if (time_ == before) {
-      // CVODE itself goes on with t + h = t, for ever.
+      // CVODE itself would continue with t + h = t for ever.
       throw Error(
           ErrorKind::numerical,
           fmt::format("{}: the step size underflowed at t = {:.15g}: a collision or another "
@@ -105,7 +105,7 @@ class CvodeIntegration {
     limit_step_count(name_.c_str(), statistics_.steps, time_, problem_.duration);
   }
 
-  /// Records the root mean square that CVODE keeps below 1, times the tolerance.
+  /// Records the root mean square that CVODE keeps below 1, multiplied by the tolerance.
   void record_step_error() {
     if (!errors_) {
       errors_.reset(sundials::require(N_VClone(state_.get())));
@@ -117,7 +117,7 @@ class CvodeIntegration {
                                   N_VWrmsNorm(errors_.get(), error_weights_.get()));
   }
 
-  /// Throws for a negative flag of CVODE, with the exception or the message that led to it.
+  /// Throws if CVODE returned a negative flag, with the exception or the message that caused it.
   void require(int flag) {
     if (flag >= 0) return;
     if (exception_) std::rethrow_exception(exception_);
@@ -130,8 +130,8 @@ class CvodeIntegration {
     throw Error(ErrorKind::numerical, message);
   }
 
-  /// A direct linear solver for Newton's iteration, with an empty matrix: CVODE then decides, as
-  /// for its own direct solvers, when J is evaluated anew and when I - gamma J is factorised.
+  /// Sets a direct linear solver for Newton's iteration, with an empty matrix. CVODE then decides,
+  /// as for its own direct solvers, when J is evaluated anew and when I - gamma J is factorised.
   void set_block_solver() {
     block_solver_.emplace(problem_);
     matrix_.reset(sundials::require(SUNMatNewEmpty(context_)));
@@ -145,7 +145,7 @@ class CvodeIntegration {
     require(CVodeSetLinSysFn(memory_.get(), set_up_linear_system));
   }
 
-  /// Runs a callback's work; returns 0, or a negative number if it threw.
+  /// Does the work of a callback; returns 0, or a negative number if the work threw.
   template <class Work>
   static int call(void* self, const Work& work) noexcept {
     auto& integration = *static_cast<CvodeIntegration*>(self);
@@ -157,8 +157,8 @@ class CvodeIntegration {
     }
   }
 
-  /// The callback y' = f(y). Where it is not finite CVODE is told to try a smaller step (a positive
-  /// number).
+  /// The callback y' = f(y). If the result is not finite, a positive number tells CVODE to try a
+  /// smaller step.
   static int right_hand_side(realtype time, N_Vector y, N_Vector derivative, void* self) {
     return call(self, [&](CvodeIntegration& integration) {
       try {
@@ -172,8 +172,8 @@ class CvodeIntegration {
     });
   }
 
-  /// The callback that factorises I - gamma J. `*is_new` tells whether J is evaluated here, which
-  /// `may_keep` leaves open.
+  /// The callback that factorises I - gamma J. `*is_new` reports whether J was evaluated here;
+  /// `may_keep` allows to keep the old J.
   static int set_up_linear_system(realtype, N_Vector y, N_Vector, SUNMatrix, booleantype may_keep,
                                   booleantype* is_new, realtype gamma, void* self, N_Vector,
                                   N_Vector, N_Vector) {
@@ -200,7 +200,7 @@ class CvodeIntegration {
   }
 
   /// Keeps the message that CVODE would write to standard error; warnings (positive codes) are
-  /// dropped.
+  /// ignored.
   static void keep_message(int code, const char*, const char*, char* message, void* self) {
     if (code >= 0) return;
     call(self, [&](CvodeIntegration& integration) {
@@ -229,7 +229,7 @@ class CvodeIntegration {
   std::string name_;
   SeriesVectorField<double> field_;
   EnergyGuard<double> guard_;
-  std::optional<CoefficientBlockSolver> block_solver_;  ///< for BDF
+  std::optional<CoefficientBlockSolver> block_solver_;  ///< solver for BDF
   FlowJet<double> jet_;
   double time_ = 0;
   CvodeCounts counts_;
@@ -237,11 +237,11 @@ class CvodeIntegration {
   std::string not_finite_;
   std::string message_;
 
-  // These stand in order of construction: CVODE's memory is freed before what it uses, the context
-  // last.
+  // The members stand in order of construction: CVODE's memory is freed before the objects that it
+  // uses, and the context last.
   sundials::Context context_;
   sundials::Vector state_;
-  sundials::Vector errors_;         ///< local errors, where they are recorded
+  sundials::Vector errors_;         ///< local errors, if they are recorded
   sundials::Vector error_weights_;  ///< weights of errors_
   sundials::NonlinearSolver nonlinear_solver_;
   sundials::Matrix matrix_;

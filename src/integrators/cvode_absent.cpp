@@ -1,4 +1,4 @@
-// What stands in for cvode.cpp in a build without SUNDIALS.
+// Replaces cvode.cpp in a build without SUNDIALS.
 
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/cvode.hpp"

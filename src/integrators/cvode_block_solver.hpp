@@ -14,16 +14,17 @@
 
 namespace hamjet {
 
-/// Solves (I - gamma J) x = b exactly, J being the Jacobian of the coefficient equations z' = f(z)
-/// at a state in the layout of SeriesVectorField.
+/// Solves (I - gamma J) x = b exactly, where J is the Jacobian of the coefficient equations z' =
+/// f(z) at a state in the layout of SeriesVectorField.
 ///
-/// J acts on a vector of series as the product with the matrix of series A = Df(z), truncated. So
-/// it is block lower triangular in the degree, and
+/// J acts on a vector of series as the truncated product with the matrix of series A = Df(z). It is
+/// therefore block lower triangular in the degree, and
 ///
 ///   (I - gamma A_0) x_d = b_d + gamma sum over k = 1..d of A_k x_(d-k) ,
 ///
-/// with the same 2n x 2n matrix I - gamma A_0 for every monomial: one small factorisation, and the
-/// truncated product of A and x. Entries of A that are constant have no part in the sum.
+/// with the same 2n x 2n matrix I - gamma A_0 for every monomial. A solve thus takes one small
+/// factorisation and the truncated product of A and x. Constant entries of A do not contribute to
+/// the sum.
 class CoefficientBlockSolver {
  public:
   /// The problem must be valid and outlive this object.
@@ -45,7 +46,7 @@ class CoefficientBlockSolver {
     }
   }
 
-  /// Evaluates A at a state. False if a number is not finite.
+  /// Evaluates A at a state. Returns false if a number is not finite.
   bool evaluate(const double* state) {
     for (std::size_t i = 0; i < dimension_; ++i) {
       std::copy_n(state + i * coefficients_, coefficients_, evaluator_.input(i));
@@ -60,7 +61,7 @@ class CoefficientBlockSolver {
     return true;
   }
 
-  /// Factorises I - gamma A_0 with partial pivoting. False if it is singular.
+  /// Factorises I - gamma A_0 with partial pivoting. Returns false if the matrix is singular.
   bool factorise(double gamma) {
     const std::size_t n = dimension_;
     gamma_ = gamma;
@@ -101,7 +102,7 @@ class CoefficientBlockSolver {
     std::size_t column;
   };
 
-  /// Row i after pivoting; below the diagonal the multipliers of the elimination.
+  /// An entry of row i after pivoting; below the diagonal stand the multipliers of the elimination.
   double& factor(std::size_t i, std::size_t j) { return factors_[rows_[i] * dimension_ + j]; }
 
   const double* series(const Entry& entry) const {
@@ -120,7 +121,7 @@ class CoefficientBlockSolver {
     }
   }
 
-  /// One forward and one backward substitution, on all monomials of a degree at once.
+  /// One forward and one backward substitution, for all monomials of a degree at once.
   void solve_slice(int d, double* b) {
     const std::size_t n = dimension_;
     const std::size_t count = space_->count(d);

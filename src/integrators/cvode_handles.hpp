@@ -7,8 +7,8 @@
 #include <memory>
 #include <new>
 
-// Owners of SUNDIALS objects: each is freed when it leaves its scope. Throw std::bad_alloc where
-// SUNDIALS returns nothing.
+// Owners of SUNDIALS objects, which free them at the end of their scope. They throw std::bad_alloc
+// if SUNDIALS returns no object.
 
 namespace hamjet::sundials {
 
@@ -18,7 +18,7 @@ T require(T object) {
   return object;
 }
 
-/// The context that all other objects need and must not outlive.
+/// The context, which all other objects need and must not outlive.
 class Context {
  public:
   Context() {

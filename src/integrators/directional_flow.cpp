@@ -17,8 +17,8 @@
 namespace hamjet {
 namespace {
 
-/// A number with a random sign and a size between 1/2 and 1. The standard library's distributions
-/// differ between implementations.
+/// A number with a random sign and a size between 1/2 and 1. (The distributions of the standard
+/// library differ between implementations.)
 double signed_size(std::mt19937_64& generator) {
   const auto bits = static_cast<double>(static_cast<std::int64_t>(generator()) >> 11);
   const double x = bits * 0x1p-52;  // in [-1, 1)
@@ -64,7 +64,8 @@ FlowProblem<Real> DirectionalFlow<Real>::problem() const {
   FlowProblem<Real> all = problem_;
   all.initial_jet = side_by_side(starts_);
   all.space = (*all.initial_jet)[0].space_pointer();
-  // These stand for the lines' s; the initial jet says what they move.
+  // The variables stand for the parameter s of each line; the initial jet defines which deviations
+  // they move.
   all.variables.resize(starts_.size());
   std::iota(all.variables.begin(), all.variables.end(), std::size_t{0});
   return all;

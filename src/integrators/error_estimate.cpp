@@ -16,14 +16,14 @@
 namespace hamjet {
 namespace {
 
-/// A known line is of use if no degree is larger or smaller along it by more than this factor.
+/// A known line is used only if no degree is larger or smaller along it by more than this factor.
 constexpr double largest_distortion = 30;
-/// Known lines that show more than this many times the error of a run of their own are not finer
-/// than the jet, or the run has missed the error.
+/// If known lines show more than this many times the error of a separate run, either they are not
+/// finer than the jet, or the run has missed the error.
 constexpr double largest_disagreement = 10;
 
-/// The directions of known lines, in the estimate's unit of momentum; none unless the degrees of
-/// the jet are about as large along each as their largest coefficients.
+/// The directions of known lines, in the estimate's unit of momentum. The list is empty unless the
+/// degrees of the jet are about as large along each line as their largest coefficients.
 template <class Real>
 std::vector<Direction<Real>> known_directions(const FlowProblem<Real>& problem,
                                               const std::vector<JetAlongLine<Real>>& known,
@@ -81,7 +81,7 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
   const Directions<Real> drawn = choose_directions(jet, line, largest, directions_of_runs[0]);
-  // Steps that were chosen along the known lines are judged along others too.
+  // Steps that were chosen along the known lines are also judged along other lines.
   const auto first = run_along<Real>(problem, drawn, 0, settings);
   include_lines<Real>(result, drawn, first, largest);
   const auto taken = known_directions(problem, known, exponent, jet, line, largest);
@@ -125,7 +125,8 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
     jets.push_back(in_momentum_unit(jet, problem.variables, exponent));
     largest.push_back(largest_by_degree(jets.back()));
   }
-  std::vector<FlowJet<Real>> first(times.size());  // of the first run, along its first direction
+  std::vector<FlowJet<Real>> first(
+      times.size());  // series of the first run along its first direction
   const Directions<Real> drawn =
       choose_directions(jets.back(), line, largest.back(), directions_of_runs[0]);
   for (std::size_t number = 0; number < stages_of_runs.size(); ++number) {

@@ -25,8 +25,8 @@ namespace odeint = boost::numeric::odeint;
 
 constexpr const char* fehlberg_name = "Fehlberg 7(8)";
 
-/// odeint's algebra on ranges with a norm that takes every number type: its own looks for the type
-/// of the real numbers inside Extended.
+/// odeint's algebra on ranges, with a norm for every number type. odeint's own norm would look for
+/// the type of the real numbers inside Extended.
 struct CoefficientAlgebra : odeint::range_algebra {
   template <class State>
   static typename State::value_type norm_inf(const State& state) {
@@ -59,8 +59,9 @@ struct RecordingErrorChecker
   Value* last;
 };
 
-/// One integration with Fehlberg 7(8). The loop over the steps is our own: odeint's integrate
-/// functions return without moving if the step has the wrong sign, and accept steps to NaN.
+/// One integration with Fehlberg 7(8). The loop over the steps is written here, because odeint's
+/// integrate functions return without moving if the step has the wrong sign, and accept steps to
+/// NaN.
 template <class Real>
 class FehlbergIntegration {
  public:
@@ -139,8 +140,8 @@ class FehlbergIntegration {
     }
   }
 
-  /// Takes one step of size h into `trial_`; returns whether it is good, and in `proposed` the next
-  /// size.
+  /// Takes one step of size h into `trial_`. Returns whether the step is accepted, and sets
+  /// `proposed` to the next size.
   bool attempt(ControlledStepper& stepper, const Real& h, Real& proposed) {
     Real time = time_;
     proposed = h;
@@ -151,7 +152,7 @@ class FehlbergIntegration {
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
     }
-    // A stage met a singularity: odeint's error estimate, if there is one, says nothing.
+    // A stage met a singularity, so that odeint's error estimate, if there is one, is meaningless.
     proposed = h / 4;
     return false;
   }
@@ -171,7 +172,7 @@ class FehlbergIntegration {
   }
 
   /// The size of the first step: a hundredth of the time in which the nominal moves by its own
-  /// size; the control does the rest.
+  /// size. The step control corrects it.
   Real first_step() const {
     double size = 0;
     double slope = 0;
@@ -208,7 +209,7 @@ class FehlbergIntegration {
   EnergyGuard<Real> guard_;
   FlowJet<Real> jet_;
   State state_;
-  State derivative_;  ///< at the start of the step
+  State derivative_;  ///< derivative at the start of the step
   State trial_;
   Real time_ = 0;
 };

@@ -4,19 +4,19 @@
 
 namespace hamjet {
 
-/// Wall time of an integration alone: what its observer takes is left out.
+/// Wall time of an integration alone, without the time of its observer.
 class IntegrationClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Makes a call, such as the observer's, whose time is left out.
+  /// Makes a call, for example to the observer, whose time is not counted.
   template <class Call>
   void exclude(const Call& call) {
     const auto before = Clock::now();
     call();
     excluded_ += Clock::now() - before;
   }
-  /// Makes a call whose time is left out and added to `seconds`.
+  /// Makes a call whose time is not counted but added to `seconds`.
   template <class Call>
   void exclude(const Call& call, double& seconds) {
     const auto before = Clock::now();

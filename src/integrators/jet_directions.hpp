@@ -11,7 +11,7 @@
 #include "hamjet/integrators/flow_problem.hpp"
 #include "line_restriction.hpp"
 
-// Directions of deviations along which a jet is judged by integrations of one variable alone.
+// Directions of deviations along which a jet is judged by integrations in one variable.
 
 namespace hamjet {
 
@@ -29,22 +29,23 @@ std::vector<double> largest_by_degree(const FlowJet<Real>& jet) {
   return largest;
 }
 
-/// A direction with the jet along it.
+/// A direction, with the jet along it.
 template <class Real>
 struct Direction {
   std::vector<Real> entries;
   FlowJet<Real> jet;
-  double distortion = 0;  ///< logarithm of the most that a degree is larger or smaller here
+  double distortion =
+      0;  ///< logarithm of the largest factor by which a degree is larger or smaller along it
 };
 
-/// A direction of entries about `length` in size.
+/// A direction whose entries have magnitudes of about `length`.
 template <class Real>
 Direction<Real> direction_of(std::vector<Real> entries, double length, const FlowJet<Real>& jet,
                              const SpacePointer& line, const std::vector<double>& largest) {
   Direction<Real> direction{std::move(entries), {}, 0};
   direction.jet = restrict_to_line(jet, direction.entries, line);
   const std::vector<double> along = largest_by_degree(direction.jet);
-  double weight = 1;  // of a monomial
+  double weight = 1;  // weight of a monomial
   for (std::size_t d = 1; d < along.size(); ++d) {
     weight *= length;
     if (largest[d] == 0) continue;
@@ -67,8 +68,8 @@ Direction<Real> draw_direction(std::mt19937_64& generator, const FlowJet<Real>& 
   return direction_of(std::move(entries), 1, jet, line, largest);
 }
 
-/// So many directions, of those drawn by a generator of constant seed the ones along which the
-/// degrees of the jet are nearest in size to their largest coefficients.
+/// This number of directions: of those drawn by a generator of constant seed, the ones along which
+/// the degrees of the jet are nearest in size to their largest coefficients.
 template <class Real>
 std::vector<Direction<Real>> choose_directions(const FlowJet<Real>& jet, const SpacePointer& line,
                                                const std::vector<double>& largest,

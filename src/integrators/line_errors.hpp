@@ -11,7 +11,7 @@
 #include "hamjet/integrators/error_estimate.hpp"
 #include "jet_directions.hpp"
 
-// What independent runs along lines show of a jet's error, degree by degree.
+// The error of a jet, degree by degree, that independent runs along lines show.
 
 namespace hamjet {
 
@@ -33,8 +33,8 @@ std::vector<double> line_differences(const FlowJet<Real>& a, const FlowJet<Real>
   return result;
 }
 
-/// By degree, the larger of `result` and the error that a known line shows, relative to what the
-/// coefficients are along it: they may add up there, and their errors with them.
+/// By degree, the larger of `result` and the error that a known line shows, relative to the
+/// coefficients along this line; along a line coefficients may add up, and their errors too.
 template <class Real>
 void include_known(std::vector<double>& result, const Direction<Real>& direction,
                    const FlowJet<Real>& run, const std::vector<double>& largest) {
@@ -47,7 +47,7 @@ void include_known(std::vector<double>& result, const Direction<Real>& direction
   }
 }
 
-/// All runs have the same nominal, so that its difference between two of them is error too.
+/// All runs share the nominal, so that a difference in the nominal is an error too.
 template <class Real>
 void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
                       double largest) {
@@ -55,9 +55,10 @@ void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const
   raise_to(result[0], error_estimate_safety * line_differences(a, b)[0] / largest);
 }
 
-/// By degree, the differences of a jet and lines along its directions: the root mean square over
-/// them, for one may be blind to an error and another sum up much that is small, relative to the
-/// smaller of that of the lines and the jet's largest coefficient.
+/// By degree, the differences between a jet and lines along its directions, as root mean squares
+/// over the directions: a single direction may miss an error, or may sum up many small ones. They
+/// are relative to the smaller of the root mean square of the lines and the jet's largest
+/// coefficient.
 template <class Real>
 std::vector<double> mean_line_differences(std::span<const Direction<Real>> directions,
                                           const std::vector<FlowJet<Real>>& lines,

@@ -5,12 +5,12 @@
 
 #include "hamjet/integrators/flow_problem.hpp"
 
-// Series along lines through one nominal, integrated side by side in one ring.
+// Series along lines through one nominal, which are integrated side by side in one ring.
 
 namespace hamjet {
 
-/// Jets in one variable each, which have one nominal, in a ring in which products of different
-/// variables vanish (SeriesSpace::create_uncoupled).
+/// Combines jets in one variable each, which share the nominal, into a ring in which products of
+/// different variables vanish (SeriesSpace::create_uncoupled).
 template <class Real>
 FlowJet<Real> side_by_side(const std::vector<FlowJet<Real>>& lines) {
   const SpacePointer space = SeriesSpace::create_uncoupled(lines.size(), lines[0][0].order());
@@ -26,7 +26,7 @@ FlowJet<Real> side_by_side(const std::vector<FlowJet<Real>>& lines) {
   return all;
 }
 
-/// The jets in one variable each of such a jet.
+/// Extracts the jets in one variable each from such a combined jet.
 template <class Real>
 std::vector<FlowJet<Real>> line_by_line(const FlowJet<Real>& all) {
   const SeriesSpace& space = all[0].space();

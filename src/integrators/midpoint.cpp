@@ -13,8 +13,8 @@
 namespace hamjet {
 namespace {
 
-/// Twice the iterations that quadratic convergence takes to round-off from a start that is good to
-/// a quarter.
+/// Twice the number of iterations that quadratic convergence needs to reach round-off from a start
+/// with an error of a quarter.
 constexpr int largest_iteration_count = 14;
 
 template <class Real>
@@ -46,7 +46,8 @@ Vector<Real> midpoint_step(DifferentiableHamiltonian<Real>& hamiltonian, const V
   }
   using std::sqrt;
   const Real epsilon = std::numeric_limits<Real>::epsilon();
-  // Newton's convergence is quadratic: what stops getting smaller below this is round-off.
+  // Newton's method converges quadratically: below this size, changes that stop shrinking are
+  // round-off.
   const Real stagnation = sqrt(epsilon);
   const Eigen::Index n = size / 2;
   Vector<Real> increment = Vector<Real>::Zero(size);
@@ -59,9 +60,9 @@ Vector<Real> midpoint_step(DifferentiableHamiltonian<Real>& hamiltonian, const V
     matrix.bottomRows(n) = at_middle.hessian.topRows(n) * Real(tau / 2);
     matrix.diagonal().array() += Real(1);
     factors.compute(matrix);
-    // det = 1 for tau = 0; it changes sign only where the solution connected to tau = 0 ends. The
-    // test is the same in all canonical coordinates, as are Newton's iterates (a norm would not
-    // be).
+    // The determinant is 1 for tau = 0 and changes sign only where the solution connected to tau =
+    // 0 ends. This test is the same in all canonical coordinates, as Newton's iterates are (the
+    // test of a norm would not be).
     if (!(factors.determinant() > 0)) {
       fail("it is longer than the way to a singular point; a shorter step would do", tau);
     }

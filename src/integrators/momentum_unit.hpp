@@ -10,25 +10,26 @@
 
 namespace hamjet {
 
-/// The distance of an orbit's start from the centre, the length that deviations are compared with;
-/// 1 in the default unit of length.
+/// The distance of an orbit's start from the centre, which is the length with which deviations are
+/// compared; it is 1 in the default unit of length.
 inline double initial_distance(std::span<const double> start) {
   double distance = 0;
   for (std::size_t i = 0; i < start.size() / 2; ++i) distance = std::hypot(distance, start[i]);
   return distance;
 }
 
-/// The binary exponent of the unit in which momenta are compared with positions in the canonical
-/// unit of length: for an orbit, whose mu is 1, the speed of a circle through the start over its
-/// radius, r^(-3/2), rounded to a power of two; 0 in the default unit of length, the chief's
-/// distance, and for systems whose units are fixed. It follows from the start alone, so that a
-/// stored jet has it too; arcs, which have the forces at each cut, take momentum_scale.
+/// The binary exponent of the unit in which momenta are compared with positions, for the canonical
+/// unit of length. For an orbit (mu = 1) the unit is the speed on the circle through the start
+/// divided by its radius, r^(-3/2), rounded to a power of two. The exponent is 0 in the default
+/// unit of length, the chief's distance, and for systems with fixed units. It depends on the start
+/// alone, so that it is known for stored jets too; arcs, which know the forces at each cut, use
+/// momentum_scale instead.
 inline int natural_momentum_exponent(bool is_orbit, std::span<const double> start) {
   return is_orbit ? static_cast<int>(std::lround(-1.5 * std::log2(initial_distance(start)))) : 0;
 }
 
-/// The `variables` that in_momentum_unit takes for a jet without some degrees of freedom of its
-/// model: for each variable the index of one of the jet's components of the same kind, position or
+/// The argument `variables` of in_momentum_unit for a jet without some degrees of freedom of its
+/// model: for each variable, the index of one of the jet's components of the same kind, position or
 /// momentum. The model's state has `dimension` numbers.
 inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> variables,
                                                    std::size_t dimension, std::size_t components) {
@@ -37,11 +38,11 @@ inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> 
   return result;
 }
 
-/// A jet with its momenta, as components and as variables, in units of 2^exponent, so that nothing
-/// is rounded. Coefficients of one degree are compared with each other, and those of positions and
-/// momenta have different units: which of them is the largest would depend on the unit of length.
-/// `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a positive
-/// one.
+/// A jet with its momenta, both components and variables, in units of 2^exponent, so that nothing
+/// is rounded. Coefficients of one degree are compared with each other, but those of positions and
+/// momenta have different units: without a common unit, the largest one would depend on the unit of
+/// length. `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a
+/// positive one.
 template <class Real>
 FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> variables,
                                int exponent) {
@@ -60,7 +61,7 @@ FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> v
   return jet;
 }
 
-/// A linear map of z = (q, p) likewise, of an even number of rows and columns.
+/// The same conversion for a linear map of z = (q, p), with an even number of rows and columns.
 template <class LinearMap>
 LinearMap in_momentum_unit(LinearMap linear, int exponent) {
   using Real = typename LinearMap::Scalar;

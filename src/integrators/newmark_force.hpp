@@ -14,8 +14,8 @@
 
 namespace hamjet {
 
-/// The force of Newmark's method at the positions q that belong to x = q - c M^-1 F(q),
-/// c = beta h^2 > 0. With G the wanted force,
+/// The force of Newmark's method at the positions q that solve x = q - c M^-1 F(q), with c = beta
+/// h^2 > 0. With G the wanted force,
 ///
 ///   q = x + c M^-1 G,   G = F(q) .
 ///
@@ -24,8 +24,8 @@ namespace hamjet {
 ///
 ///   (I - c DF M^-1) G_d = R_d + DF x_d ,
 ///
-/// the transpose of I - c M^-1 DF. Solving for G, not q, keeps G good to round-off where
-/// c DF M^-1 is large, and needs no M.
+/// whose matrix is the transpose of I - c M^-1 DF. Solving for G instead of q keeps G accurate to
+/// round-off where c DF M^-1 is large, and does not need M.
 template <class Real>
 class NewmarkForce {
  public:
@@ -63,7 +63,7 @@ class NewmarkForce {
   const Real* q(std::size_t i) { return evaluator_.input(i); }
   const Real* f(std::size_t i) const { return &force_[i * count_]; }
 
-  /// Evaluates F(q) and x = q - c M^-1 F(q); false if F(q) is not finite.
+  /// Evaluates F(q) and x = q - c M^-1 F(q); returns false if F(q) is not finite.
   bool start(const FlowJet<Real>& jet) {
     failure_ = "the force is not finite (a collision, or a point outside its domain)";
     for (std::size_t i = 0; i < n_; ++i) {
@@ -89,7 +89,7 @@ class NewmarkForce {
     for (int d = 1; d <= order_; ++d) {
       evaluator_.evaluate_remainder(d);
       solve_degree(d);
-      // At the highest degree only the outputs would be formed, and those are the force.
+      // At the highest degree `complete` would form only the outputs, which are the force.
       if (d < order_) evaluator_.complete(d);
     }
     return true;
@@ -132,8 +132,8 @@ class NewmarkForce {
     }
   }
 
-  /// Places q = (1 - s) q_start + s x + s c M^-1 G, G the trial force: at s = 1 the equation
-  /// itself, at s = 0 the start of the step.
+  /// Sets the positions q = (1 - s) q_start + s x + s c M^-1 G, where G is the trial force: s = 1
+  /// gives the equation itself, s = 0 the start of the step.
   void place(double s) {
     for (std::size_t i = 0; i < n_; ++i) {
       Real sum = s == 1 ? target_[i] : Real(start_[i] + Real(s) * (target_[i] - start_[i]));
@@ -144,9 +144,10 @@ class NewmarkForce {
     ++statistics_.nominal_evaluations;
   }
 
-  /// Factorises I - s c DF M^-1 at the point that was placed. False if it is singular or, unless
-  /// the force is linear, its determinant is negative: it is 1 at s = 0 and changes sign only where
-  /// the solution connected to it ends, so that beyond lies a detached one.
+  /// Factorises I - s c DF M^-1 at the present positions. Returns false if the matrix is singular
+  /// or, unless the force is linear, if its determinant is negative. The determinant is 1 at s = 0
+  /// and changes sign only where the solution connected to the start ends, so that a solution
+  /// beyond is a detached one.
   bool factorise(double s) {
     for (Eigen::Index i = 0; i < size(); ++i) {
       for (Eigen::Index j = 0; j < size(); ++j) {
@@ -163,8 +164,9 @@ class NewmarkForce {
   }
 
   /// Newton's method from the trial force, to round-off. Every correction must be at most a quarter
-  /// of the one before: a start as good as that belongs to the solution that is found. The next one
-  /// would be this one times the square of their ratio, for convergence is quadratic.
+  /// of the one before: a start of this quality belongs to the solution that is found. Because
+  /// convergence is quadratic, the next correction would be this one times the square of their
+  /// ratio.
   bool newton(double s) {
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     Real previous = 0;
@@ -206,7 +208,8 @@ class NewmarkForce {
     return moved > 0 ? Real(moved / std::max(scale, moved)) : Real(0);
   }
 
-  /// How much larger the terms of q are than the positions that `displacement` is relative to.
+  /// The factor by which the terms of q are larger than the positions to which `displacement` is
+  /// relative.
   Real cancellation(double s) const {
     Real terms = 0;
     Real scale = 0;
@@ -221,7 +224,7 @@ class NewmarkForce {
     return scale > 0 ? Real(terms / scale) : Real(1);
   }
 
-  /// Solves degree 0 from the last force, and where that is no good start, along s from 0 to 1.
+  /// Solves degree 0 from the last force or, if that is not a good start, along s from 0 to 1.
   bool solve_nominal() {
     for (std::size_t i = 0; i < n_; ++i) {
       start_[i] = *evaluator_.input(i);
@@ -232,7 +235,7 @@ class NewmarkForce {
     return !is_linear_ && continue_from_start();
   }
 
-  /// Follows the solution from the start of the step. A path that ends (a fold) has no
+  /// Follows the solution from the start of the step. A path that ends (in a fold) has no
   /// continuation, however far it is refined.
   bool continue_from_start() {
     constexpr double first = 0x1p-8;

@@ -16,12 +16,12 @@ struct LinearisedMotion {
   double velocity_gradient = 0;
   double force_gradient = 0;
 
-  /// The frequency of the oscillation that such entries make, in radians a unit of time.
+  /// The frequency, in radians per unit of time, of an oscillation with these entries.
   double frequency() const { return std::sqrt(velocity_gradient * force_gradient); }
 };
 
-/// What is asked of a system at single states, on work space that is made once: each thread needs
-/// an object of its own. It refers to the system.
+/// Properties of a system at single states, with work space that is made once, so that each thread
+/// needs an object of its own. The object refers to the system.
 template <class Real>
 class FieldAtStates {
  public:
@@ -58,15 +58,15 @@ class FieldAtStates {
     return result;
   }
 
-  /// How large a deviation of the momenta does as much as a unit deviation of the positions, at one
-  /// state: a number P by which momenta are divided before they are compared with positions. It is
+  /// The deviation P of the momenta that has as much effect as a unit deviation of the positions,
+  /// at one state. Momenta are divided by P before they are compared with positions. It is
   ///
   ///   P = max( sqrt(|dp'/dq| / |dq'/dp|) , |p| / |q| ) ,
   ///
-  /// the ratio of the axes of the linearised motion, or that of the motion itself where that is
-  /// faster (a flight past a centre). A change of the units of length, mass and time changes P as
-  /// it changes p / q, so that nothing that is decided in scaled variables depends on them. 1 where
-  /// both terms are undefined (a state at rest in the origin of a system without forces).
+  /// which is the ratio of the axes of the linearised motion or, where it is larger (in a flight
+  /// past a centre), that of the motion itself. A change of units changes P as it changes p / q, so
+  /// that no decision in scaled variables depends on the units. P is 1 where both terms are
+  /// undefined (a state at rest in the origin of a system without forces).
   double momentum_scale(std::span<const Real> state) {
     const std::size_t n = degrees_of_freedom_;
     const LinearisedMotion motion = linearised_motion(state);

@@ -22,20 +22,20 @@
 
 namespace hamjet {
 
-/// Stages of the runs along directions; other stages make other steps.
+/// Numbers of stages of the runs along directions; different stages lead to different steps.
 inline constexpr std::array<int, 2> stages_of_runs = {16, 15};
-/// Directions of each run. An error of a high degree d is about (g.x)^d, with g what the steps
-/// resolve worst, and is seen along few directions: of many steps two directions see it, but of few
-/// steps they may not.
+/// Numbers of directions of the two runs. An error of a high degree d is about (g.x)^d, where g is
+/// the deviation that the steps resolve worst, and shows along few directions. Over many steps two
+/// directions suffice to see it, over few steps they may not.
 inline constexpr std::array<std::size_t, 2> directions_of_runs = {8, 2};
 
-/// A line's variable has no unit of momentum.
+/// The variable of a line has no unit of momentum.
 inline constexpr std::array<std::size_t, 1> variable_of_line = {0};
 
 template <class Real>
 using Directions = std::vector<Direction<Real>>;
 
-/// Throws Error(usage) unless a jet is one of the problem's flow.
+/// Throws Error(usage) unless a jet fits the flow of the problem.
 template <class Real>
 void require_jet_of(const FlowProblem<Real>& problem, const FlowJet<Real>& jet) {
   if (jet.size() != problem.system->dimension()) {
@@ -44,7 +44,7 @@ void require_jet_of(const FlowProblem<Real>& problem, const FlowJet<Real>& jet) 
   for (const Series<Real>& component : jet) require_same_space(component.space(), *problem.space);
 }
 
-/// The problem along a direction, which is in the estimate's unit of momentum.
+/// The problem along a direction, which is given in the estimate's unit of momentum.
 template <class Real>
 FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
                                 const std::vector<Real>& direction, int exponent) {
@@ -78,7 +78,7 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
   return all;
 }
 
-/// How one of the runs, along all of its directions at once, is integrated.
+/// The Gauss settings of one of the runs, which integrates all of its directions at once.
 template <class Real>
 GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& settings) {
   GaussSettings gauss;
@@ -106,7 +106,7 @@ StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
   };
 }
 
-/// The jets along the directions that such a run has come to, in the estimate's unit of momentum.
+/// The jets along the directions that a run has reached, in the estimate's unit of momentum.
 template <class Real>
 std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run,
                                         const ErrorEstimateSettings& settings) {
@@ -129,7 +129,7 @@ std::vector<FlowJet<Real>> run_along(const FlowProblem<Real>& problem,
       settings);
 }
 
-/// The directions of a run, of those that were drawn.
+/// The directions of one run, selected from those that were drawn.
 template <class Real>
 std::span<const Direction<Real>> directions_of_run(const Directions<Real>& drawn,
                                                    std::size_t number) {

@@ -10,18 +10,18 @@
 
 namespace hamjet {
 
-/// Judges a step of a Gauss method by every degree of the series, not by the nominal alone: the
-/// coefficients of high degree have the nominal's singularities in complex time, but stronger ones,
-/// so that their Legendre modes fall later.
+/// Judges a step of a Gauss method by every degree of the series, not by the nominal alone. In
+/// complex time, coefficients of high degree have the same singularities as the nominal, but
+/// stronger ones, so that their Legendre modes decay later.
 ///
 /// With r_j the last Legendre mode of the slopes of degree j relative to these slopes, the local
 /// error of degree d is about
 ///
 ///   100 max over j <= d of r_j r_(d-j) ,
 ///
-/// which for d = 0 is the estimate that GaussStepControl makes of the nominal: the error of a Gauss
-/// method is bilinear in the neglected modes of the solution and of its adjoint, and the degree-d
-/// part of a product is a sum of products of degrees that add up to d.
+/// which for d = 0 is the estimate of GaussStepControl for the nominal. The reason is that the
+/// error of a Gauss method is bilinear in the neglected modes of the solution and of its adjoint,
+/// and the degree-d part of a product is a sum of products of degrees that add up to d.
 template <class Real, int Lanes>
 class SeriesStepControl {
  public:
@@ -65,7 +65,7 @@ class SeriesStepControl {
       }
     }
     if (system.second_order()) {
-      // Where a force passes through zero the slope alone would be too small a measure.
+      // Where a force passes through zero the slope alone would be too small a scale.
       if (!system.unit_mass()) {
         velocity *= std::abs(static_cast<double>(system.inverse_mass(0, 0)));
       }

@@ -13,21 +13,22 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
-// The methods that know nothing of series share these: the flow's jet as one flat vector of real
-// numbers, its time derivative, and a guard of the nominal's energy.
+// Tools for methods that do not work on series: the flow's jet as one flat vector of real numbers,
+// its time derivative, and a check of the nominal's energy.
 
 namespace hamjet {
 
 /// The coefficient equations z' = f(z), z = (q, p) a vector of series, for methods that advance one
 /// flat vector of real numbers.
 ///
-/// Layout of the state: component by component, each the coefficients of degree 0 to
-/// working_order(problem) in the order of SeriesSpace. A linear system has no coefficients above
-/// degree 1, and none are integrated. Units are the system's own.
+/// The state holds component after component; each has its coefficients of degree 0 to
+/// working_order(problem), in the order of SeriesSpace. A linear system has no coefficients above
+/// degree 1, so that none are integrated. Units are the system's own.
 template <class Real>
 class SeriesVectorField {
  public:
-  /// `method` opens the messages of errors. The problem must be valid and outlive this object.
+  /// `method` is the beginning of error messages. The problem must be valid and outlive this
+  /// object.
   SeriesVectorField(const FlowProblem<Real>& problem, std::string method)
       : problem_(&problem),
         method_(std::move(method)),
@@ -41,10 +42,10 @@ class SeriesVectorField {
   }
 
   std::size_t dimension() const noexcept { return problem_->system->dimension(); }
-  /// Coefficients of one component.
+  /// Number of coefficients of one component.
   std::size_t coefficients() const noexcept { return coefficients_; }
   std::size_t size() const noexcept { return dimension() * coefficients_; }
-  /// Evaluations of f so far.
+  /// Number of evaluations of f so far.
   long evaluations() const noexcept { return evaluations_; }
   /// Products of series formed so far.
   const SeriesWork& work() const noexcept { return evaluator_.work(); }
@@ -59,8 +60,8 @@ class SeriesVectorField {
     return state;
   }
 
-  /// Writes a state into a jet of the problem's space, whose degrees above the working order are
-  /// left alone.
+  /// Writes a state into a jet of the problem's space; degrees above the working order are
+  /// unchanged.
   void copy_to(FlowJet<Real>& jet, const Real* state) const {
     for (std::size_t c = 0; c < jet.size(); ++c) {
       std::copy_n(state + c * coefficients_, coefficients_, jet[c].coefficients().data());
@@ -128,20 +129,21 @@ class SeriesVectorField {
   long evaluations_ = 0;
 };
 
-/// Refuses a nominal whose energy shows that it has left the solution. A method that controls local
-/// errors alone can step over a collision and report success; the energy then jumps by about its
-/// own size.
+/// Refuses a nominal whose energy shows that the nominal has left the solution. A method that
+/// controls local errors alone can step over a collision and report success; the energy then jumps
+/// by about its own size.
 ///
 /// The change of H since the start may not exceed
 ///
 ///   min(1e-2 + 1e3 tolerance, 0.1) max(|H|, S/100, max(tolerance, 1e-10) S_now) ,
 ///
-/// where S = sum |z_i dH/dz_i| at the start is the size of the terms that make up H: it stands in
-/// where they cancel, as on a parabola. The same of the state that is looked at stands in where all
-/// vanish at the start, as at an equilibrium. Nothing of it depends on the units. A nominal outside
-/// is wrong beyond use (1 % in energy is 1.5 % in the period of an orbit), whatever the reason: a
-/// collision, a tolerance too coarse for a close passage, or a drift over very many periods. The
-/// converse does not hold: a kept energy proves nothing.
+/// where S = sum |z_i dH/dz_i| at the start is the size of the terms of H, which serves as the
+/// scale if these terms cancel, as on a parabola. S_now is the same sum for the present state,
+/// which serves if all terms vanish at the start, as at an equilibrium. The test does not depend on
+/// the units. A nominal that fails it is too wrong to be of use (1 % in energy is 1.5 % in the
+/// period of an orbit), whether the cause is a collision, a tolerance too coarse for a close
+/// passage, or a drift over very many periods. The converse does not hold: a conserved energy
+/// proves nothing.
 template <class Real>
 class EnergyGuard {
  public:
@@ -155,8 +157,8 @@ class EnergyGuard {
     allowed_ = std::min(1e-2 + 1e3 * tolerance, 0.1);
   }
 
-  /// Throws Error(numerical) if the energy of the constant terms, which stand `stride` apart, is
-  /// not finite or too far from that of the start.
+  /// Throws Error(numerical) if the energy of the constant terms, which are `stride` apart, is not
+  /// finite or too far from the energy at the start.
   void check(const Real* state, std::size_t stride, const Real& time) {
     const double change = std::abs(static_cast<double>(Real(energy(state, stride) - start_)));
     const double scale = std::max(start_scale_, least_share_ * size_of_terms());
@@ -176,7 +178,7 @@ class EnergyGuard {
     return *evaluator_.output(0);
   }
 
-  /// S of the state whose energy was evaluated last.
+  /// S for the state whose energy was last evaluated.
   double size_of_terms() {
     double size = 0;
     for (std::size_t i = 0; i < dimension_; ++i) {
@@ -191,8 +193,8 @@ class EnergyGuard {
   std::size_t dimension_;
   Real start_ = 0;
   double start_scale_ = 0;
-  double least_share_ = 0;  ///< of the terms now
-  double allowed_ = 0;      ///< change, in parts of the scale
+  double least_share_ = 0;  ///< least fraction of the terms of the present state
+  double allowed_ = 0;      ///< allowed change, as a fraction of the scale
 };
 
 }  // namespace hamjet

@@ -18,8 +18,8 @@
 #include "real_number.hpp"
 #include "step_sequence.hpp"
 
-// The steps that all methods on the second-order form q' = M^-1 p, p' = F(q) share: kicks of the
-// momenta and drifts of the positions in turn.
+// The steps that all methods for the second-order form q' = M^-1 p, p' = F(q) share: alternating
+// kicks of the momenta and drifts of the positions.
 
 namespace hamjet {
 
@@ -31,10 +31,10 @@ namespace hamjet {
 /// x is q itself, or the variable that determines it (see NewmarkForce).
 template <class Real>
 struct Splitting {
-  const char* method = "";  ///< opens the messages of errors
+  const char* method = "";  ///< the beginning of error messages
   double step = 0;
   std::vector<Real> drifts;
-  std::vector<Real> kicks;  ///< one more than drifts
+  std::vector<Real> kicks;  ///< there is one more kick than drifts
 };
 
 /// Throws Error(usage) for a step that is not positive or a system without second-order form.
@@ -51,18 +51,17 @@ inline void validate_splitting(const DynamicalSystem& system, double step, const
   }
 }
 
-/// Where the nominal of an explicit splitting stands between two steps, without the kicks that join
-/// them.
+/// The nominal of an explicit splitting between two steps, without the kicks that join the steps.
 template <class Real>
 struct SplittingCheckpoint {
-  std::vector<Real> state;           ///< with the kick that ends the step
-  std::vector<Real> summed_momenta;  ///< without the kick that ends the step
-  std::vector<Real> lost;            ///< to rounding; positions, then momenta
-  long taken = 0;                    ///< steps
+  std::vector<Real> state;           ///< state with the kick that ends the step
+  std::vector<Real> summed_momenta;  ///< momenta without the kick that ends the step
+  std::vector<Real> lost;            ///< rounding lost; positions, then momenta
+  long taken = 0;                    ///< number of steps taken
   Real time = 0;
 };
 
-/// A method's settings as a splitting.
+/// The splitting that a method's settings describe.
 template <class Real>
 Splitting<Real> splitting_of(const StormerSettings& settings);
 template <class Real>
@@ -89,8 +88,9 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
 ///   evaluate()        evaluates at the drifted x; false if there is no finite result;
 ///   work()            the products of series formed so far.
 ///
-/// A kick at the end of a step and the one at the start of the next share their force and are one
-/// addition: between steps the momenta are those after the first kick of the next step.
+/// The kick at the end of a step and that at the start of the next step use the same force and are
+/// done as one addition. Between steps the momenta are therefore those after the first kick of the
+/// next step.
 template <class Real, class Force>
 class SplittingIntegration {
  public:
@@ -124,8 +124,8 @@ class SplittingIntegration {
     return finish();
   }
 
-  /// Runs like `run`, telling `keep` where the nominal stands at the start and after every step but
-  /// the last, if `is_kept(taken)`.
+  /// Runs like `run`. At the start and after every step but the last for which `is_kept(taken)`
+  /// holds, it calls `keep` with the checkpoint of the nominal.
   template <class IsKept, class Keep>
   FlowJet<Real> run_nominal(const IsKept& is_kept, const Keep& keep) {
     set_kicks();
@@ -137,8 +137,8 @@ class SplittingIntegration {
     return finish();
   }
 
-  /// Takes the steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th.
-  /// The problem's starting jet is about the checkpoint's state.
+  /// Repeats the steps of an earlier run of the same nominal, from a checkpoint to step number
+  /// `last`. The problem's starting jet must be about the checkpoint's state.
   template <class AfterStep>
   FlowJet<Real> run_from(const SplittingCheckpoint<Real>& checkpoint, long last,
                          const AfterStep& after_step) {
@@ -186,7 +186,7 @@ class SplittingIntegration {
         }
         drift(step_ * splitting_.drifts[s]);
       }
-      // Störmer's rule ends with a drift: the force there is not needed.
+      // Störmer's rule ends with a drift, so that the force at the end is not needed.
       if (taken_ + 1 < last || end_kick_ != 0) evaluate();
       ++statistics_.steps;
       ++taken_;
@@ -230,9 +230,9 @@ class SplittingIntegration {
                             static_cast<double>(step_), static_cast<double>(time_)));
   }
 
-  /// value += factor series, `count` numbers. The products are rounded apart from the sums: a
-  /// compiler that fuses the two does so in vectors and not in what is left of them, and a nominal
-  /// alone would have other last bits than the same nominal with its jet.
+  /// value += factor series, for `count` numbers. The products are rounded before they are added. A
+  /// compiler that fuses both operations would do so in vectors but not in the remaining numbers,
+  /// so that a nominal alone would have other last bits than with its jet.
   void add(Real* value, Real* lost, const Real& factor, const Real* series, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) products_[k] = factor * series[k];
     for (std::size_t k = 0; k < count; ++k) add_compensated(value[k], lost[k], products_[k]);
@@ -258,7 +258,8 @@ class SplittingIntegration {
 
   Real* lost(std::size_t component) { return &lost_[component * count_]; }
 
-  /// Writes the state with the kick that is still due. Degrees above the working order stay zero.
+  /// Writes the state, including the kick that is still due. Degrees above the working order stay
+  /// zero.
   void write_jet(const Real& factor) {
     for (std::size_t i = 0; i < n_; ++i) {
       std::copy_n(force_.q(i), count_, jet_[i].coefficients().data());
@@ -290,15 +291,15 @@ class SplittingIntegration {
   IntegrationStatistics& statistics_;
   const StepObserver<Real>& observer_;
   std::size_t n_;
-  std::size_t count_;  ///< coefficients of one component
+  std::size_t count_;  ///< number of coefficients of one component
   FlowJet<Real> jet_;
   std::vector<Real> momenta_;
-  std::vector<Real> lost_;      ///< to rounding, so far; positions, then momenta
-  std::vector<Real> products_;  ///< work space of one component
+  std::vector<Real> lost_;      ///< rounding lost so far; positions, then momenta
+  std::vector<Real> products_;  ///< work space for one component
   std::vector<Real> inverse_mass_;
   Real step_ = 0;
   Real end_kick_ = 0;
-  Real joined_kick_ = 0;  ///< at the end of a step and at the start of the next
+  Real joined_kick_ = 0;  ///< sum of the kicks at the end of a step and at the start of the next
   Real time_ = 0;
   long taken_ = 0;
 };

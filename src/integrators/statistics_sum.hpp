@@ -4,8 +4,8 @@
 
 namespace hamjet {
 
-/// Adds what an integration took to the sum over several that go on from each other; what is said
-/// of one alone (estimates, lines, tolerances) is no part of it.
+/// Adds the work of an integration to the sum over several that continue each other. Findings about
+/// a single integration (estimates, lines, tolerances) are not added.
 inline void add_integration(IntegrationStatistics& total, const IntegrationStatistics& one) {
   total.steps += one.steps;
   total.rejected_steps += one.rejected_steps;

@@ -10,7 +10,8 @@
 
 namespace hamjet {
 
-/// The step h, fitted to what is left of the span: the last steps share it, so that none is tiny.
+/// The step h, adapted to the rest of the duration: the last steps share the rest, so that none is
+/// tiny.
 template <class Real>
 Real fit_to_span(const Real& h, const Real& remaining) {
   const double ratio = static_cast<double>(Real(remaining / h));
@@ -25,8 +26,8 @@ Real fit_to_span(const Real& h, const Real& remaining) {
                           method, count, largest_step_count));
 }
 
-/// Number of equal steps not longer than `step` that fill a duration; a step that divides it up to
-/// round-off does. Throws Error(too_large) for too many.
+/// Number of equal steps not longer than `step` that fill a duration. A step that divides the
+/// duration up to round-off counts as dividing it. Throws Error(too_large) for too many steps.
 template <class Real>
 long equal_step_count(const Real& duration, double step, const char* method) {
   const double count = std::ceil(std::abs(static_cast<double>(duration)) / step * (1 - 1e-12));
@@ -34,8 +35,8 @@ long equal_step_count(const Real& duration, double step, const char* method) {
   return std::max(1L, static_cast<long>(count));
 }
 
-/// Throws Error(too_large) once the steps so far let expect too many in all. Orbits' steps grow and
-/// shrink, so that the first thousands prove nothing.
+/// Throws Error(too_large) if the number of steps so far suggests too many in all. The steps of
+/// orbits grow and shrink, so that the first thousands are not judged.
 inline void limit_step_count(const char* method, long steps, double time, double duration) {
   constexpr long trusted = 2000;
   if (steps < trusted) return;

@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-/// The force at the positions themselves, which live in the inputs of its evaluator.
+/// The force at the positions themselves, which are the inputs of its evaluator.
 template <class Real>
 class ExplicitForce {
  public:
@@ -94,7 +94,8 @@ class SplittingArcs : public ArcIntegrator<Real> {
     const double stages = static_cast<double>(splitting_.drifts.size());
     const double values = static_cast<double>(list.operations().size());
     const double coefficients = static_cast<double>(space.first(order + 1));
-    // Linear parts of all values; kicks and drifts, summed with compensation, count four each.
+    // Linear parts of all values; kicks and drifts, which are summed with compensation, count as
+    // four each.
     const double linear = components * values + 8 * components;
     const double nominal = nominal_weight * stages * (values * (1 + components) + 8 * components);
     const double series =
@@ -103,8 +104,8 @@ class SplittingArcs : public ArcIntegrator<Real> {
   }
 
  private:
-  /// Time of an operation on single numbers, one after the other, relative to one in a run of
-  /// multiply-adds.
+  /// Time of an operation on single numbers that depend on each other, relative to the time of one
+  /// in a sequence of independent multiply-adds.
   static constexpr double nominal_weight = 4;
 
   SplittingIntegration<Real, ExplicitForce<Real>> integration(

@@ -11,9 +11,9 @@
 
 namespace hamjet {
 
-/// The flow's jet as it advances from step to step, with the round-off that each addition lost
-/// unless it is summed plainly. By rows, for an end map, the coefficients above degree 0 stand one
-/// pack a monomial whose lanes are the components, as the map's steps do.
+/// The flow's jet as it advances from step to step, with the round-off that each addition lost, if
+/// the summation is compensated. For an end map, the coefficients above degree 0 are stored by
+/// rows: one pack for each monomial, whose lanes are the components.
 template <class Real, int Lanes>
 class SummedJet {
  public:
@@ -32,7 +32,7 @@ class SummedJet {
     }
   }
 
-  /// The jet as it stands.
+  /// The present jet.
   const FlowJet<Real>& value() {
     for (std::size_t k = 1; k < rows_.size(); ++k) {
       for (std::size_t c = 0; c < jet_.size(); ++c) {
@@ -46,7 +46,7 @@ class SummedJet {
     return std::move(jet_);
   }
   const Real& constant(std::size_t component) const { return jet_[component][0]; }
-  /// The constant terms by component, as a function.
+  /// The constant terms, as a function of the component.
   auto start() const {
     return [this](std::size_t component) -> const Real& { return constant(component); };
   }
@@ -56,7 +56,7 @@ class SummedJet {
                          : rows_[monomial].value.lane(static_cast<int>(component));
   }
 
-  /// The constant terms, and what they lost (empty if not compensated).
+  /// The constant terms, and the rounding that they lost (empty if not compensated).
   std::vector<Real> constants() const {
     std::vector<Real> result;
     for (const Series<Real>& component : jet_) result.push_back(component[0]);
@@ -67,7 +67,7 @@ class SummedJet {
     for (const auto& component : lost_) result.push_back(component[0]);
     return result;
   }
-  /// Goes on from given constant terms and what they lost.
+  /// Continues from given constant terms and the rounding that they lost.
   void resume(const std::vector<Real>& constants, const std::vector<Real>& lost) {
     for (std::size_t c = 0; c < jet_.size(); ++c) {
       jet_[c][0] = constants[c];
@@ -81,7 +81,8 @@ class SummedJet {
     with_addition([&](const auto& add) { advance_with(stages, h, highest, add); });
   }
 
-  /// Takes the step of the degrees from 1 to `highest` by the stages' end map, of a jet by rows.
+  /// Takes the step of the degrees from 1 to `highest` by the stages' end map, for a jet that is
+  /// stored by rows.
   void advance_by(const EndMap<Real, Lanes>& map, const SliceEvaluator<P, Real>& evaluator,
                   int highest) {
     const auto state = [this](std::size_t component, std::size_t monomial) {
@@ -98,7 +99,7 @@ class SummedJet {
   }
 
  private:
-  /// One choice a step: the loops over the coefficients have none.
+  /// The choice is made once per step, so that the loops over the coefficients have none.
   template <class Advance>
   void with_addition(const Advance& advance) {
     if (is_compensated_) {
@@ -123,7 +124,7 @@ class SummedJet {
       }
       return;
     }
-    // Positions come first: they need the momenta at the start of the step.
+    // Positions come first, because they need the momenta at the start of the step.
     for (std::size_t c = 0; c < m; ++c) {
       Real* value = jet_[c].coefficients().data();
       Real* lost = lost_of(c);
@@ -160,7 +161,7 @@ class SummedJet {
 
   Real* lost_of(std::size_t c) { return is_compensated_ ? lost_[c].data() : nullptr; }
 
-  /// The coefficients of one monomial and what they lost.
+  /// The coefficients of one monomial, and the rounding that they lost.
   struct Row {
     P value;
     P lost;
@@ -168,8 +169,8 @@ class SummedJet {
 
   bool is_compensated_;
   FlowJet<Real> jet_;
-  std::vector<std::vector<Real>> lost_;  ///< by component; none if not compensated
-  std::vector<Row> rows_;                ///< by monomial (that of degree 0 is not used), or none
+  std::vector<std::vector<Real>> lost_;  ///< by component; empty if not compensated
+  std::vector<Row> rows_;                ///< by monomial (degree 0 is not used), or empty
 };
 
 }  // namespace hamjet

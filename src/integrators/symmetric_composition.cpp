@@ -23,7 +23,7 @@ const char* method_name(int order) {
 template <class Real>
 Splitting<Real> splitting_of(const SymmetricCompositionSettings& settings) {
   Splitting<Real> splitting{method_name(settings.order), settings.step, {}, {}};
-  // The half kicks at the end of one Verlet step and at the start of the next are one kick.
+  // The half kicks at the end of one Verlet step and at the start of the next are joined.
   Extended previous = 0;
   for (const Extended& gamma : composition_substeps(settings.order)) {
     splitting.drifts.push_back(convert<Real>(gamma));

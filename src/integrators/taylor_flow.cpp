@@ -8,7 +8,8 @@
 
 namespace hamjet {
 
-/// The share of the whole that the last two powers may have, which need not go on falling evenly.
+/// The largest fraction that the last two powers may have; the decay of the powers need not be
+/// regular.
 constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
 
 TaylorFlow::TaylorFlow(SharedSystem system)
@@ -33,7 +34,8 @@ TaylorFlow::Lanes TaylorFlow::squares(int power, bool is_of_momenta) const {
 
 void TaylorFlow::choose_units() {
   const std::size_t n = system_->degrees_of_freedom;
-  // Squares of numbers that are divided by the largest of them neither vanish nor overflow.
+  // Numbers are divided by the largest of them before they are squared, so that the squares neither
+  // vanish nor overflow.
   const auto norm = [&](const auto& number) {
     Lanes largest(std::numeric_limits<double>::min());
     for (std::size_t i = 0; i < n; ++i) largest = larger_magnitude(largest, number(i));
@@ -51,8 +53,8 @@ void TaylorFlow::choose_units() {
     inverse_sizes_[g] = Lanes(1) / size;
     times[g] = size / norm([&](std::size_t i) { return field_.output(g * n + i)[0]; });
   }
-  // The time in which positions and momenta change by themselves: on a circle 1/(2 pi) of a
-  // revolution. A power of two changes no digit.
+  // The time in which positions and momenta change by their own size: on a circle 1/(2 pi) of a
+  // revolution. It is rounded to a power of two, which changes no digit.
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double of_positions = times[0].lane(static_cast<int>(lane));
     const double of_momenta = times[1].lane(static_cast<int>(lane));
@@ -78,8 +80,8 @@ void TaylorFlow::expand(std::span<const double> times) {
   powers_.fill(order);
   proved_ = Lanes();
   std::size_t proved = 0;
-  Lanes square;     // of the spans in the lanes' units of time
-  Lanes before(1);  // its power k
+  Lanes square;     // squares of the durations in the lanes' units of time
+  Lanes before(1);  // their power k
   for (int k = 0; k < order; ++k) {
     field_.expand(k);
     if (k == 0) {
@@ -91,8 +93,8 @@ void TaylorFlow::expand(std::span<const double> times) {
     for (std::size_t i = 0; i < size; ++i) field_.input(i)[k + 1] = field_.output(i)[k] * factor;
     if (k > 0) before *= square;
     if (timed == 0 || k + 1 < fewest) continue;
-    // Positions and momenta have units of their own. Both of the last powers are looked at, for one
-    // may vanish by symmetry; in a sum, so that what is no number stays.
+    // Positions and momenta have units of their own. Both of the last two powers are considered,
+    // because one may vanish by symmetry. They are added, because a sum keeps a NaN.
     Lanes shares;
     for (const bool is_of_momenta : {false, true}) {
       shares += (squares(k, is_of_momenta) + squares(k + 1, is_of_momenta) * square) * before;
@@ -111,7 +113,7 @@ void TaylorFlow::expand(std::span<const double> times) {
 double TaylorFlow::reach(std::size_t lane) const {
   double reach = std::numeric_limits<double>::infinity();
   for (const bool is_of_momenta : {false, true}) {
-    // A size of 0 leaves nothing that powers could be compared with.
+    // With a size of 0 there is no scale for the powers.
     if (!std::isfinite(inverse_sizes_[is_of_momenta ? 1 : 0].lane(static_cast<int>(lane)))) {
       return 0;
     }
@@ -152,13 +154,13 @@ void TaylorFlow::advance(std::span<double> states, std::span<const double> times
 
 void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double> times) {
   constexpr int most_expansions = 1000000;
-  // A step that is this much shorter than the whole time runs into a collision.
+  // A step shorter than this fraction of the whole time runs into a collision.
   constexpr double least_part = 1e-9;
   const std::size_t size = system_->dimension();
   std::array<double, lanes> left{};
   std::copy(times.begin(), times.end(), left.begin());
   const auto state = [&](std::size_t lane) { return states.subspan(lane * size, size); };
-  // Lanes without a state of their own repeat the first, so that they are finite.
+  // Lanes without a state of their own repeat the first one, so that they are finite.
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     set_state(lane, state(lane < times.size() ? lane : 0));
   }

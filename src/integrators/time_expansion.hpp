@@ -12,17 +12,18 @@
 
 namespace hamjet {
 
-/// Runs an operation list on series in one variable, power by power: the inputs' coefficients being
-/// known up to the power k, each operation's coefficient of t^k is formed from those of its
-/// operands up to there. What SliceEvaluator does in several variables; here no coefficient is
-/// unknown when it is needed, so that no gradients are carried along. Source of the recurrences: A.
-/// Griewank and A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, section 13.2.
+/// Runs an operation list on series in one variable, power by power. When the inputs' coefficients
+/// are known up to the power k, the coefficient of t^k of each operation is formed from the
+/// coefficients of its operands up to k. SliceEvaluator does the same in several variables; here
+/// every coefficient is known when it is needed, so that no gradients are computed. Source of the
+/// recurrences: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, section
+/// 13.2.
 ///
 /// T is a real number or a Pack, Real its number type.
 template <class T, class Real>
 class TimeExpansion {
  public:
-  /// Up to the power `order`; the list must outlive the object.
+  /// Prepares expansions up to the power `order`; the list must outlive the object.
   TimeExpansion(const OperationList& list, int order)
       : list_(&list), stride_(static_cast<std::size_t>(order) + 1) {
     coefficients_.assign(list.operations().size() * stride_, T(Real(0)));
@@ -37,19 +38,19 @@ class TimeExpansion {
     }
   }
 
-  /// The coefficients of the i-th input, to be written by the caller.
+  /// The coefficients of the i-th input, which the caller writes.
   T* input(std::size_t i) { return value(i); }
   const T* input(std::size_t i) const { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
 
-  /// Forms the coefficients of t^k of all values, those of lower powers being there.
+  /// Forms the coefficients of t^k of all values; those of lower powers must be known.
   void expand(int k) {
     for (const Step& step : steps_) form(step, k);
   }
 
  private:
-  /// An operation; values are told by where their coefficients begin.
+  /// An operation; values are given by the place where their coefficients begin.
   struct Step {
     OperationCode code;
     std::size_t value;
@@ -136,7 +137,7 @@ class TimeExpansion {
     return sum_of(1, k, [&](int j) { return T(Real(j) / Real(k)) * (u[j] * v[k - j]); });
   }
 
-  /// The sum over j from the first to the last, in two sums that do not wait for each other.
+  /// The sum over j from the first to the last index, as two sums that do not wait for each other.
   template <class Term>
   static T sum_of(int first, int last, const Term& term) {
     T even(Real(0));

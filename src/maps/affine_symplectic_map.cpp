@@ -54,7 +54,7 @@ MatrixSymplecticityDefect symplecticity_defect(const Matrix<Real>& matrix) {
   MatrixSymplecticityDefect defect;
   defect.absolute = static_cast<double>(defect_matrix(matrix).cwiseAbs().maxCoeff());
   const double scale = static_cast<double>(terms.maxCoeff());
-  // A matrix of zeros has no terms; J itself is of size 1.
+  // In a matrix of zeros no terms cancel; the size of J, which is 1, then serves as the scale.
   defect.relative = defect.absolute / std::max(scale, 1.0);
   return defect;
 }
@@ -125,7 +125,8 @@ double AffineSymplecticMap<Real>::condition() const {
 
 template <class Real>
 Matrix<Real> nearest_symplectic(Matrix<Real> matrix) {
-  constexpr int largest_iteration_count = 8;  // quadratic: two from 1e-13 reach 1e-34
+  constexpr int largest_iteration_count =
+      8;  // convergence is quadratic: two iterations from 1e-13 reach 1e-34
   double previous = symplecticity_defect(matrix).relative;
   for (int i = 0; i < largest_iteration_count; ++i) {
     const Matrix<Real> correction = defect_matrix(matrix) * symplectic_unit_times(matrix) / Real(2);

@@ -9,7 +9,8 @@ namespace hamjet {
 /// How far a 2n x 2n matrix is from symplectic: the largest entry of A J A^T - J.
 struct MatrixSymplecticityDefect {
   double absolute = 0;
-  double relative = 0;  ///< divided by the largest entry of |A| |J| |A|^T: of the terms that cancel
+  double relative =
+      0;  ///< divided by the largest entry of |A| |J| |A|^T, the size of the terms that cancel
 };
 
 /// The symplecticity defect of a matrix. Throws Error(usage) unless it is 2n x 2n, n > 0.
@@ -17,7 +18,7 @@ template <class Real>
 MatrixSymplecticityDefect symplecticity_defect(const Matrix<Real>& matrix);
 
 /// The relative defect beyond which a matrix is refused: 1.1e-13 in double precision. A matrix that
-/// was formed from others, or written in decimals to the last digit, is well below.
+/// was formed from others, or written in decimals to the last digit, has a defect well below this.
 template <class Real>
 double largest_symplecticity_defect() {
   return 512 * static_cast<double>(std::numeric_limits<Real>::epsilon());
@@ -57,7 +58,7 @@ class AffineSymplecticMap {
   double condition() const;
 
  private:
-  /// For matrices that are symplectic by construction, up to the rounding of products.
+  /// Marks matrices that are symplectic by construction, up to the rounding of products.
   struct Unchecked {};
   AffineSymplecticMap(Unchecked, Matrix<Real> matrix, Vector<Real> shift)
       : matrix_(std::move(matrix)), shift_(std::move(shift)) {}
@@ -66,9 +67,9 @@ class AffineSymplecticMap {
   Vector<Real> shift_;
 };
 
-/// The matrix of the nearest symplectic map to first order, by Newton's iteration: with E = A J
-/// A^T - J, which is skew, A + E J A / 2 has a defect of the order E^2. It serves for a matrix
-/// that is symplectic to the precision that it was written in, and is wanted in a higher one.
+/// The matrix of the nearest symplectic map to first order, by Newton's iteration: with E = A J A^T
+/// - J, which is skew, A + E J A / 2 has a defect of the order E^2. The iteration serves to refine
+/// a matrix that is symplectic only to the precision in which it was written.
 template <class Real>
 Matrix<Real> nearest_symplectic(Matrix<Real> matrix);
 

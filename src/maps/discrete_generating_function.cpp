@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-/// The block that is inverted, d (chosen final variable) / dp.
+/// The block that is inverted: the derivative of the chosen final variable by p.
 template <class Real>
 Matrix<Real> inverted_block(const AffineSymplecticMap<Real>& map,
                             DiscreteGeneratingFunctionKind kind) {
@@ -49,7 +49,8 @@ DiscreteGeneratingFunction<Real>::DiscreteGeneratingFunction(const AffineSymplec
                             is_first ? "first" : "second", is_first ? "dQ/dp" : "dP/dp",
                             existence_measure(map, kind)));
   }
-  // Solves for p from (q, w2), w2 the chosen final variable; then for the other final variable.
+  // The equations are solved for p from (q, w2), where w2 is the chosen final variable, and then
+  // for the other final variable.
   const Eigen::Index n = map.dimension() / 2;
   const auto chosen = [&](const auto& rows) {
     return is_first ? rows.topRows(n) : rows.bottomRows(n);
@@ -69,7 +70,7 @@ DiscreteGeneratingFunction<Real>::DiscreteGeneratingFunction(const AffineSymplec
   one_form.topRightCorner(n, n) = inverse;
   one_form.bottomLeftCorner(n, n) = (other_by_q - other_by_p * inverse * chosen_by_q) * sign;
   one_form.bottomRightCorner(n, n) = other_by_p * inverse * sign;
-  // Symmetric because A is symplectic; what is not symmetric is round-off.
+  // The matrix is symmetric because A is symplectic; any asymmetry is round-off.
   quadratic_ = (one_form + one_form.transpose()) / Real(2);
   linear_.resize(2 * n);
   linear_.head(n) = -inverse * chosen_shift;

@@ -8,8 +8,8 @@ namespace hamjet {
 enum class DiscreteGeneratingFunctionKind { first, second };
 
 /// The smallest singular value of the block that a kind inverts (dQ/dp or dP/dp), relative to the
-/// norm of the whole matrix: round-off is divided by it, and where that leaves nothing the kind
-/// does not exist.
+/// norm of the whole matrix. Round-off is divided by this number; where no digits are left, the
+/// kind does not exist.
 template <class Real>
 double existence_measure(const AffineSymplecticMap<Real>& map, DiscreteGeneratingFunctionKind kind);
 

@@ -10,8 +10,9 @@ namespace hamjet {
 namespace {
 
 constexpr double half_ulp = 0.5 * std::numeric_limits<double>::epsilon();
-/// Roundings of the conversion of a deviation into canonical units and axes that turn, and of the
-/// result back: a quotient, three products with their sum and the rate of the axes, each way.
+/// The number of roundings when a deviation is converted into canonical units and rotating axes,
+/// and when the result is converted back: a quotient, three products with their sum, and the rate
+/// of the axes, each way.
 constexpr double conversion_roundings = 10;
 
 /// The largest coefficient of a degree in any component.

@@ -39,7 +39,7 @@ std::vector<Series<T>> final_deviations(const PartialInversion<T>& inversion) {
   return z;
 }
 
-/// The relative vector field X(z(w)): the field at nominal + z(w) less its value at the nominal.
+/// The relative vector field X(z(w)): the field at nominal + z(w) minus the field at the nominal.
 template <class T>
 std::vector<Series<T>> relative_vector_field(const DynamicalSystem& system,
                                              std::span<const T> nominal,

@@ -50,20 +50,20 @@ struct HamiltonJacobiResidual {
   int degree = 0;
   double absolute = 0;
   /// The absolute residual divided by the largest coefficient of H^h(z(w)) of this degree, of which
-  /// dS/dt is the negative: stricter than division by the sum of the absolute values of all terms,
-  /// which is larger by a factor of 2 to 10 on the paper's orbit.
+  /// dS/dt is the negative. This is stricter than a division by the sum of the absolute values of
+  /// all terms, which is larger by a factor of 2 to 10 on the paper's orbit.
   double scaled = 0;
 };
 
 /// Residual and Hamiltonian of the Hamilton-Jacobi equation at one point w, by degree 2..N+1.
 struct HamiltonJacobiTerms {
-  std::vector<double> residual;     ///< what dS/dt|_w + H^h(z(w)) adds
-  std::vector<double> hamiltonian;  ///< what H^h(z(w)) adds
+  std::vector<double> residual;     ///< contribution of dS/dt|_w + H^h(z(w)), by degree
+  std::vector<double> hamiltonian;  ///< contribution of H^h(z(w)), by degree
 
-  /// Sum of the residuals' magnitudes over that of the Hamiltonian's: how far the equation fails
-  /// for these boundary values. Unlike the largest coefficient of a degree, it does not count what
-  /// round-off, amplified by the inversion, makes of coefficients that add nothing at w. 0 where
-  /// both vanish.
+  /// Sum of the magnitudes of the residuals over that of the Hamiltonian's contributions: how far
+  /// the equation fails for these boundary values. Unlike the largest coefficient of a degree, this
+  /// ratio ignores coefficients that contribute nothing at w, in which the inversion has amplified
+  /// round-off. It is 0 where both sums vanish.
   double scaled() const {
     const auto size = [](const std::vector<double>& terms) {
       double sum = 0;
@@ -82,19 +82,18 @@ HamiltonJacobiTerms hamilton_jacobi_terms(const DynamicalSystem& system, std::sp
                                           const PartialInversion<T>& inversion,
                                           std::span<const double> w);
 
-/// Residuals of the degrees 2..N+1 for an inverted jet of any kind; dS/dt is the homotopy integral,
-/// by which S is formed, of the one-form of time_derivative.
+/// Residuals of the degrees 2..N+1 for an inverted jet of any kind. dS/dt is the homotopy integral,
+/// as for S, of the one-form of time_derivative.
 ///
-/// What the residual sees: with c_ij = d sigma_i / d w_j - d sigma_j / d w_i, j over the final
-/// pairs,
+/// With c_ij = d sigma_i / d w_j - d sigma_j / d w_i and j over the final pairs, the residual is
 ///
 ///   (dS/dt + H^h)_(d+1) = (1/(d+1)) sum over i and j of w_i (c_ji X_j)_d ,
 ///
-/// and besides, whatever vector field and Hamiltonian disagree by. It vanishes for any symplectic
-/// jet, however inaccurate: it checks the signs of the one-form, the Hamiltonian against the
-/// equations of motion, and that the one-form is closed except in pairs of two initial variables;
-/// it says nothing about the jet's accuracy. As with exactness_residual, the inversion's
-/// conditioning amplifies round-off. Throws what time_derivative throws.
+/// plus any difference between vector field and Hamiltonian. The residual vanishes for every
+/// symplectic jet, however inaccurate. It therefore checks the signs of the one-form, the
+/// Hamiltonian against the equations of motion, and that the one-form is closed, except in pairs of
+/// two initial variables. It says nothing about the jet's accuracy. As with exactness_residual, the
+/// inversion's conditioning amplifies round-off. Throws what time_derivative throws.
 template <class T>
 std::vector<HamiltonJacobiResidual> hamilton_jacobi_by_degree(const DynamicalSystem& system,
                                                               std::span<const T> nominal,

@@ -16,7 +16,7 @@ namespace {
 template <class T>
 using Polynomial = std::vector<T>;
 
-/// A polynomial and the sums of absolute values that its coefficients are made of.
+/// A polynomial, and for each coefficient the sum of the absolute values of its terms.
 template <class T>
 struct Sums {
   Polynomial<T> value;
@@ -32,8 +32,8 @@ struct Sums {
   }
 };
 
-/// For every monomial the one of one degree less that it is made from, and the variable of the
-/// factor.
+/// For every monomial, the monomial of one degree less from which it is made, and the variable of
+/// the factor.
 struct Parents {
   std::vector<std::size_t> parent;
   std::vector<std::size_t> variable;
@@ -51,15 +51,16 @@ struct Parents {
   }
 };
 
-/// Series composed with one polynomial for each variable, none of which has a constant term. The
-/// constant terms of the series are left out.
+/// Evaluates series along a line: each variable is replaced by a polynomial without constant term.
+/// The constant terms of the series are left out.
 template <class T>
 std::vector<Sums<T>> along_line(const std::vector<const Series<T>*>& series, const Parents& parents,
                                 const std::vector<Polynomial<T>>& line) {
   const SeriesSpace& space = series[0]->space();
   const auto order = static_cast<std::size_t>(space.order());
   std::vector<Sums<T>> result(series.size(), Sums<T>(space.order()));
-  // A monomial of degree d along the line begins at s^d: only what follows is kept.
+  // Along the line a monomial of degree d begins at s^d, so that only the coefficients from there
+  // on are kept.
   std::vector<T> kept;
   std::vector<std::size_t> first(space.size());
   for (std::size_t k = 1; k < space.size(); ++k) {
@@ -89,7 +90,8 @@ std::vector<Sums<T>> along_line(const std::vector<const Series<T>*>& series, con
   return result;
 }
 
-/// A direction with components between 1/2 and 1 in size, so that none is lost beside the others.
+/// A direction whose components have sizes between 1/2 and 1, so that none is lost beside the
+/// others.
 std::vector<double> direction(std::size_t size) {
   std::mt19937_64 generator(1);
   std::vector<double> result;
@@ -101,7 +103,7 @@ std::vector<double> direction(std::size_t size) {
   return result;
 }
 
-/// Largest |found - expected|, scaled as inversion_miss says.
+/// The largest |found - expected|, scaled as described at inversion_miss.
 template <class T>
 double largest_difference(const Sums<T>& found, const Sums<T>& expected) {
   double result = 0;

@@ -12,8 +12,8 @@ namespace hamjet {
 /// The inversion gives the initial deviations along the line as polynomials in s; the jet, composed
 /// with them, must give back the chosen final variables, s u_i, and the remaining final ones as the
 /// inversion has them, in every degree up to the order. A wrong coefficient of any degree shows,
-/// except for directions u of measure zero; the cost is that of one composition with series in one
-/// variable, far below that of the inversion.
+/// except for directions u of measure zero. The check costs one composition with series in one
+/// variable, which is far less than the inversion.
 ///
 /// Returns the largest difference of a coefficient of s^d, divided by the largest sum of the
 /// absolute values of the terms of a coefficient of s^1..s^d of the same component: for a right

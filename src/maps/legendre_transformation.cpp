@@ -13,8 +13,8 @@
 namespace hamjet {
 namespace {
 
-/// Whether a kind's w_i is the momentum of its pair (q, p), i = `pair` of 2n, the final pairs
-/// first.
+/// Whether the variable w_i of a kind is the momentum of its pair (q, p). i = `pair` counts the 2n
+/// pairs, the final ones first.
 bool chooses_momentum(const GeneratingFunctionKind& kind, std::size_t pair) {
   const std::size_t n = kind.degrees_of_freedom();
   return pair < n ? kind.final_is_momentum[pair] : kind.initial_is_momentum[pair - n];
@@ -26,15 +26,17 @@ const Series<T>& remaining(const PartialInversion<T>& inversion, std::size_t pai
   return pair < n ? inversion.remaining_final[pair] : inversion.remaining_initial[pair - n];
 }
 
-/// The condition of d(remaining initial) / d(chosen final), the inverse of `inverted_block`.
+/// The condition of d(remaining initial) / d(chosen final), which is the inverse of
+/// `inverted_block`.
 template <class T>
 double condition_of(const std::vector<Series<T>>& remaining_initial) {
   const auto n = static_cast<Eigen::Index>(remaining_initial.size());
   return condition_number<T>(linear_part(remaining_initial).leftCols(n));
 }
 
-/// Refuses a change whose linear part d(chosen by `to`) / d w, over the differing pairs, is
-/// singular to working precision; the criterion is that of invert_partially.
+/// Refuses a change of kind whose linear part, the derivative of the variables chosen by `to` by w
+/// over the differing pairs, is singular to working precision. The criterion is that of
+/// invert_partially.
 template <class T>
 void require_change(const PartialInversion<T>& from, const GeneratingFunctionKind& to,
                     const std::vector<std::size_t>& differing, double precision) {
@@ -47,7 +49,8 @@ void require_change(const PartialInversion<T>& from, const GeneratingFunctionKin
   const double smallest = static_cast<double>(values(values.size() - 1));
   const double condition = condition_number(block);
   const double norm = static_cast<double>(whole.norm());
-  // The norm is at least the block's largest singular value: this covers its condition as well.
+  // The norm is at least the largest singular value of the block, so that this test covers the
+  // condition of the block as well.
   if (!(smallest * largest_condition(precision) > norm)) {
     throw Error(ErrorKind::numerical,
                 fmt::format("Legendre transformation from {} to {}: the latter does not exist at "

@@ -8,8 +8,8 @@ namespace hamjet {
 
 /// The partial inversion that belongs to a generating function S of a kind, given as
 /// `generating_function()` returns it: degree 2..N+1 in the 2n variables w of that kind. The
-/// gradient sigma = grad S, read with the signs of `one_form`, is the remaining variables as series
-/// of degree N in w:
+/// gradient sigma = grad S, read with the signs of `one_form`, gives the remaining variables as
+/// series of degree N in w:
 ///
 ///   final pair   p_i = sigma_i if w_i = q_i,   q_i = -sigma_i if w_i = p_i,
 ///   initial pair p0_i = -sigma_i if w_i = q0_i,   q0_i = sigma_i if w_i = p0_i .
@@ -17,26 +17,26 @@ namespace hamjet {
 /// `condition` is that of d^2 S / d(chosen final) d(chosen initial), the same as that of the matrix
 /// that the inversion of the jet inverts. S is in the units of action of the jet's variables; its
 /// constant is ignored. Throws Error(usage) if S is not in 2n variables, is of order below 2, or
-/// has terms of degree 1, which would move the nominal. Source: Guibout and Bloch, eq.
-/// can_gen2, for F1; Goldstein, Classical Mechanics (1980), table 9-1, for F2..F4.
+/// has terms of degree 1, which would move the nominal. Source: Guibout and Bloch, eq. can_gen2,
+/// for F1; Goldstein, Classical Mechanics (1980), table 9-1, for F2..F4.
 template <class T>
 PartialInversion<T> remaining_variables(const Series<T>& S, const GeneratingFunctionKind& kind);
 
 /// Solves the map of `from` for the remaining variables of the kind `to`: the variables of `to` are
 /// n + n of the 4n variables that are known as series in those of `from`; that map is inverted, and
-/// the others are composed with its inverse. It inverts only the pairs in which the kinds differ,
-/// in a block of second derivatives of S. Throws Error(numerical), naming both kinds, smallest
-/// singular value and condition, where that singular value falls below the norm of all second
-/// derivatives over largest_condition(precision), as it does where the block's condition exceeds
-/// the latter, and where the block vanishes beside the whole: the other kind does not exist there,
-/// or not to any useful accuracy. Throws Error(usage) for kinds of different n.
+/// the others are composed with its inverse. Only the pairs in which the kinds differ are inverted,
+/// as a block of second derivatives of S. Throws Error(numerical) where the smallest singular value
+/// of the block is below the norm of all second derivatives divided by
+/// largest_condition(precision): the other kind does not exist there to any useful accuracy. The
+/// message names both kinds, the smallest singular value and the condition. Throws Error(usage) for
+/// kinds of different n.
 template <class T>
 PartialInversion<T> change_of_kind(
     const PartialInversion<T>& from, const GeneratingFunctionKind& to,
     double precision = static_cast<double>(std::numeric_limits<T>::epsilon()));
 
-/// The generating function of the kind `to` of the map that S generates as kind `from`, without its
-/// jet: the Legendre transformation in the pairs where the kinds differ,
+/// The generating function of kind `to`, from the generating function S of kind `from` of the same
+/// map, without the jet: the Legendre transformation in the pairs where the kinds differ,
 ///
 ///   S'(w') = S(w) - sum over these of w_i sigma_i ,
 ///

@@ -12,12 +12,13 @@
 namespace hamjet {
 namespace {
 
-/// Components that are evaluated together: a state in space, whose sums fill the registers.
+/// The number of components that are evaluated together: those of a state in space, whose sums fill
+/// the registers.
 constexpr std::size_t group_size = 6;
 
 constexpr int native_width = Pack<double, 16>::width;
-/// Vectors in a block of points: each coefficient is loaded once for all of them. With AVX-512
-/// there are 32 registers for the sums (6 x 3) and operands, else 16 (6 x 2).
+/// The number of vectors in a block of points; each coefficient is loaded once for the whole block.
+/// With AVX-512 there are 32 registers for the sums (6 x 3) and operands, otherwise 16 (6 x 2).
 constexpr int vectors = native_width == 8 ? 3 : 2;
 constexpr int block_points = vectors * native_width;
 using Block = Pack<double, block_points>;
@@ -43,19 +44,19 @@ std::vector<std::size_t> tail_counts(std::size_t variables, int degree) {
   return counts;
 }
 
-/// What the kernels work on for one block of points.
+/// The storage on which the kernels work, for one block of points.
 struct Work {
   std::size_t variables;
   int degree;
   const std::size_t* tails;  ///< see tail_counts
   const double* coefficients;
   const Block* x;    ///< the variables
-  Block* monomials;  ///< of degree 1..N-1, one after the other
-  Block* shares;     ///< of degree d = 0..N and component c of the group: at d * group_size + c
+  Block* monomials;  ///< monomials of degree 1..N-1, one after the other
+  Block* shares;  ///< share of degree d = 0..N and component c of the group, at d * group_size + c
 };
 
 /// Calls `action` with 0, ..., Count - 1 as compile-time constants. A loop would be unrolled too
-/// late for the compiler to keep arrays that it indexes in registers.
+/// late for the compiler to keep the indexed arrays in registers.
 template <std::size_t Count, class Action>
 void unrolled(const Action& action) {
   [&]<std::size_t... Index>(std::index_sequence<Index...>) {
@@ -68,8 +69,8 @@ void unrolled(const Action& action) {
 template <std::size_t Components>
 using BlockSums = std::array<Block::Vector, Components * vectors>;
 
-/// Adds up the terms x p over the parents p from `parent` to `end`, storing the monomials where
-/// `Stored`. Returns the coefficients that come next.
+/// Adds up the terms x p over the parents p from `parent` to `end`; stores the monomials if
+/// `Stored` is set. Returns the place of the next coefficients.
 template <std::size_t Components, bool Stored>
 const double* add_terms(const Block& x, const Block* parent, const Block* end, const double* a,
                         Block*& stored, BlockSums<Components>& sums) {
@@ -88,7 +89,7 @@ const double* add_terms(const Block& x, const Block* parent, const Block* end, c
   return a;
 }
 
-/// Evaluates the share of one degree, for the monomials x_i p of all parents p.
+/// Evaluates the share of one degree in the values, for the monomials x_i p of all parents p.
 template <std::size_t Components, bool Stored>
 const double* evaluate_degree(const Work& work, const std::size_t* tails, const Block* parents_end,
                               const double* a, Block*& stored, Block* share) {
@@ -104,7 +105,7 @@ const double* evaluate_degree(const Work& work, const std::size_t* tails, const 
   return a;
 }
 
-/// Evaluates the shares of all degrees, for a group of components.
+/// Evaluates the shares of all degrees in the values of one group of components.
 template <std::size_t Components>
 void evaluate_block(const Work& work) {
   const double* a = work.coefficients;
@@ -130,7 +131,7 @@ constexpr std::array<Kernel, group_size> make_kernels(std::index_sequence<Index.
   return {&evaluate_block<Index + 1>...};
 }
 
-/// Kernels of 1..6 components, each at one less than their number.
+/// Kernels for 1..6 components; the kernel for c components has the index c - 1.
 constexpr std::array<Kernel, group_size> kernels =
     make_kernels(std::make_index_sequence<group_size>());
 
@@ -141,7 +142,7 @@ Block load(const double* from, std::size_t count) {
       result.part[v].copy_from(from + v * native_width, std::experimental::element_aligned);
     }
   } else {
-    // The other lanes are zero and their results are not stored.
+    // The other lanes are set to zero, and their results are not stored.
     for (std::size_t i = 0; i < count; ++i) result.set_lane(static_cast<int>(i), from[i]);
   }
   return result;

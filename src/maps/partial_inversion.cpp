@@ -22,7 +22,7 @@ std::vector<double> rounded_singular_values(const Matrix<T>& matrix) {
   return result;
 }
 
-/// The condition number, from the singular values.
+/// The condition number, as the ratio of the largest to the smallest singular value.
 double ratio_of_ends(const std::vector<double>& values) {
   return values.back() > 0 ? values.front() / values.back()
                            : std::numeric_limits<double>::infinity();
@@ -44,8 +44,8 @@ const T& entry(const Matrix<T>& matrix, std::size_t i, std::size_t j) {
   return matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
 }
 
-/// The part of the linear part with the chosen or the remaining final variables as rows and the
-/// chosen or the remaining initial ones as columns.
+/// The block of the linear part whose rows are the chosen (or remaining) final variables and whose
+/// columns are the chosen (or remaining) initial ones.
 template <class T>
 Matrix<T> part_of(const Matrix<T>& linear, const GeneratingFunctionKind& kind, bool has_chosen_rows,
                   bool has_chosen_columns) {
@@ -62,12 +62,13 @@ Matrix<T> part_of(const Matrix<T>& linear, const GeneratingFunctionKind& kind, b
 }
 
 /// Solves the chosen final variables, f = A u + B v + N(u, v), for the remaining initial deviations
-/// u(w), w = (f, v), v being the chosen ones:
+/// u(w), where w = (f, v) and v are the chosen initial deviations. The iteration
 ///
 ///   u = A^-1 (f - B v - N(u, v))
 ///
-/// gains one degree an iteration, for N begins at degree 2. The remaining final variables
-/// C u + D v + M(u, v) follow from the last iteration: M takes no more of u than N does.
+/// makes one more degree right each time, because N begins at degree 2. The last iteration also
+/// gives the remaining final variables C u + D v + M(u, v), because M needs no higher degree of u
+/// than N does.
 template <class T>
 void solve_for_the_rest(const std::vector<Series<T>>& jet, PartialInversion<T>& result) {
   const GeneratingFunctionKind& kind = result.kind;
@@ -85,7 +86,7 @@ void solve_for_the_rest(const std::vector<Series<T>>& jet, PartialInversion<T>& 
       u[space->linear_index(n + j)] = entry(of_v, i, j);
     }
   }
-  std::vector<Series<T>> nonlinear;  // N, and for the last iteration M
+  std::vector<Series<T>> nonlinear;  // N, and in the last iteration M
   const auto append_nonlinear = [&](bool is_chosen) {
     for (std::size_t i = 0; i < n; ++i) {
       nonlinear.push_back(jet[kind.final_variable(i, is_chosen)]);
@@ -111,7 +112,7 @@ void solve_for_the_rest(const std::vector<Series<T>>& jet, PartialInversion<T>& 
       result.remaining_final.push_back(std::move(composed[n + i]));
     }
   }
-  result.remaining_final.resize(n, Series<T>(space));  // of order 1: no M
+  result.remaining_final.resize(n, Series<T>(space));  // at order 1 there is no M
   const Matrix<T> c = part_of(linear, kind, false, false);
   const Matrix<T> d = part_of(linear, kind, false, true);
   for (std::size_t i = 0; i < n; ++i) {
@@ -141,7 +142,8 @@ Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunc
       const Series<T>& component = jet[kind.final_variable(i)];
       const std::size_t k = component.space().linear_index(kind.initial_variable(j, false));
       const double row = kind.final_is_momentum[i] ? 1 / unit : 1;
-      const double column = kind.initial_is_momentum[j] ? 1 : unit;  // what is not chosen
+      const double column =
+          kind.initial_is_momentum[j] ? 1 : unit;  // variables that are not chosen
       block(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           component[k] * T(row * column);
     }

@@ -19,7 +19,8 @@ void PositionBoundaryValues::find_unknowns(int degree) {
   constexpr int most_iterations = 40;
   constexpr double rest = 4 * std::numeric_limits<double>::epsilon();
   constexpr double nearly_at_rest = 1e-9;  // stagnation below this is round-off
-  // Where terms cancel, so is stagnation below what the rounding of the positions makes of a step.
+  // Where terms cancel, stagnation below the step that the rounding of the positions causes is
+  // round-off as well.
   const auto step_of_rounding = [&](const auto& factorised) {
     Eigen::VectorXd rounding(static_cast<Eigen::Index>(unknowns_.size()));
     for (Eigen::Index i = 0; i < rounding.size(); ++i) {

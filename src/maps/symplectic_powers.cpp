@@ -20,7 +20,7 @@ AffineSymplecticMap<double> SymplecticPowers::operator()(long k) {
   for (; exponent_ < k; ++exponent_) power_ = map_.after(power_);
   const Matrix<double> matrix = power_.matrix().cast<double>();
   const Vector<double> shift = power_.shift().cast<double>();
-  // The symplecticity defect of a matrix that large would overflow.
+  // The symplecticity defect of such a large matrix would overflow.
   if (!std::isfinite(matrix.squaredNorm()) || !std::isfinite(shift.squaredNorm())) {
     throw Error(ErrorKind::numerical,
                 fmt::format("powers of a map: the one of exponent {} overflows", k));

@@ -9,7 +9,7 @@
 namespace hamjet {
 namespace {
 
-/// Adds factor * (a b) to the target up to a degree.
+/// Adds factor times the product a b to the target, up to a degree.
 template <class T>
 void add_product(Series<T>& target, const T& factor, const Series<T>& a, const Series<T>& b,
                  int highest, std::vector<T>& scratch) {

@@ -7,7 +7,7 @@
 namespace hamjet {
 
 namespace detail {
-/// Throws Error(usage) unless a Hamiltonian and a map have as many variables as each other.
+/// Throws Error(usage) unless a Hamiltonian and a map have the same number of variables.
 void require_same_dimension(Eigen::Index hamiltonian, Eigen::Index map);
 }  // namespace detail
 

@@ -6,8 +6,8 @@
 
 namespace hamjet {
 
-/// A discrete canonical transformation: the map f_k of every instant. It is asked for k = 0, 1, 2,
-/// ... in turn.
+/// A discrete canonical transformation: the map f_k of every instant. It is called with k = 0, 1,
+/// 2, ... in this order.
 template <class Real>
 using CanonicalTransformationSequence = std::function<AffineSymplecticMap<Real>(long k)>;
 

@@ -25,8 +25,8 @@ class AdvanceMap {
   std::size_t states() const noexcept { return states_; }
   std::size_t controls() const noexcept { return controls_; }
 
-  /// Advances `point`, 2n numbers (x, p); `control_guess`, m numbers, starts the iteration for the
-  /// controls. Throws Error(numerical) if the equations cannot be solved there.
+  /// Advances `point`, 2n numbers (x, p). The iteration for the controls starts at `control_guess`,
+  /// m numbers. Throws Error(numerical) if the equations cannot be solved there.
   virtual AdvancedPoint advance(const Eigen::VectorXd& point,
                                 const Eigen::VectorXd& control_guess) = 0;
 

@@ -13,10 +13,10 @@ struct Arc {
   std::vector<Eigen::VectorXd> points;     ///< (x, p) at the start and after each step
   std::vector<Eigen::VectorXd> controls;   ///< of each step
   std::vector<Eigen::MatrixXd> jacobians;  ///< of each step
-  Eigen::MatrixXd jacobian;                ///< of the whole arc, 2n x 2n
+  Eigen::MatrixXd jacobian;                ///< Jacobian of the whole arc, 2n x 2n
 };
 
-/// Advances (x, p) by `steps` steps; `control_guess`, m numbers, is for the first one. Throws
+/// Advances (x, p) by `steps` steps; `control_guess`, m numbers, starts the first one. Throws
 /// Error(numerical) if a step cannot be solved.
 Arc propagate_arc(AdvanceMap& map, const Eigen::VectorXd& point,
                   const Eigen::VectorXd& control_guess, std::size_t steps);

@@ -4,8 +4,8 @@ namespace hamjet {
 
 /// Least costs of an optimal-control problem, where a closed form is known.
 struct ClosedFormCost {
-  double continuous = 0;  ///< the integral of g
-  double discrete = 0;    ///< the sum of tau g over the steps
+  double continuous = 0;  ///< least integral of g
+  double discrete = 0;    ///< least sum of tau g over the steps
 };
 
 }  // namespace hamjet

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-/// An eigenvalue has come back to 1 only when it is beyond it by more than round-off.
+/// An eigenvalue counts as having returned to 1 only when it has passed 1 by more than round-off.
 constexpr double phase_tolerance = 1e-9;
 
-/// Eigenvalues that turn by more than this in a step could be taken for one another.
+/// If eigenvalues turn by more than this in a step, one could be mistaken for another.
 constexpr double largest_turn = 0.75 * std::numbers::pi;
 
-/// Follows the phases, ascending, to those of the next step: on the circle their order stays, so
-/// that the next ones are a cyclic shift of them, the one with the least largest turn. Returns that
-/// turn.
+/// Follows the phases, ascending, to those of the next step. Their order on the circle stays, so
+/// that the next phases are a cyclic shift of the present ones; the shift whose largest turn is
+/// least is chosen. Returns that turn.
 double follow(std::vector<double>& phases, const std::vector<double>& next) {
   const std::size_t n = phases.size();
   const auto principal = [](double phase) { return std::remainder(phase, whole_turn); };

@@ -11,7 +11,7 @@
 
 namespace hamjet {
 
-/// A full Newton step, with the rank of the matrix that it was solved with and the matrix's scales.
+/// A full Newton step, with the rank and the scales of the matrix that it was solved with.
 struct NewtonStep {
   Eigen::VectorXd change;
   Eigen::Index rank = 0;
@@ -21,20 +21,22 @@ struct NewtonStep {
 /// How an iteration ended.
 struct NewtonOutcome {
   int iterations = 0;
-  double residual = 0;  ///< largest component
+  double residual = 0;  ///< largest component of the residual
 };
 
 /// Solves `residual(s)` = 0 from `s`; `step(s)` returns the full Newton step, to be added. A step
-/// is halved until the 2-norm of the equilibrated residual falls; points where the residual cannot
-/// be evaluated, an Error(numerical), or is not finite count as no descent. Throws Error(numerical)
-/// that names `what`, iteration, residual and rank.
+/// is halved until the 2-norm of the equilibrated residual falls; a point where the residual throws
+/// Error(numerical) or is not finite counts as no descent. Throws Error(numerical) that names
+/// `what`, iteration, residual and rank.
 template <class Residual, class Step>
 NewtonOutcome damped_newton(Eigen::VectorXd& s, std::string_view what,
                             const NewtonSettings& settings, const Residual& residual,
                             const Step& step) {
   constexpr int most_halvings = 30;
-  constexpr double least_descent = 1e-4;  // part of the linear fall that counts as descent
-  constexpr double least_gain = 0.5;      // fall that a further step must reach near round-off
+  constexpr double least_descent =
+      1e-4;  // fraction of the fall predicted by linearisation that counts as descent
+  constexpr double least_gain =
+      0.5;  // factor by which a further step must reduce a residual near round-off
   Eigen::VectorXd r = residual(s);
   if (!r.allFinite()) {
     throw Error(ErrorKind::numerical,

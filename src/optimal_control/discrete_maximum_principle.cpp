@@ -58,7 +58,7 @@ AdvancedPoint DiscreteMaximumPrinciple::advance(const Eigen::VectorXd& point,
         equations_.evaluate(inputs);
         return Linearization{equations_.values(), equations_.jacobian().rightCols(unknowns)};
       });
-  // The implicit function theorem: R_w dw + R_z dz = 0.
+  // By the implicit function theorem, R_w dw + R_z dz = 0.
   const Eigen::MatrixXd slope =
       -solved.jacobian.partialPivLu().solve(equations_.jacobian().leftCols(known));
   return {w.head(known), w.tail(control_guess.size()), slope.topRows(known)};

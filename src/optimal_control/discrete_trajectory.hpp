@@ -24,8 +24,8 @@ struct DiscreteTrajectory {
 double discrete_cost(const OptimalControlProblem& problem, Discretization discretization,
                      double step, const DiscreteTrajectory& trajectory);
 
-/// Largest differences of two trajectories of the same size, each relative to the largest magnitude
-/// of its kind in the first (absolute where that is 0).
+/// The largest differences between two trajectories of the same size, each relative to the largest
+/// magnitude of its kind in the first one (absolute where that is 0).
 struct TrajectoryDifference {
   double states = 0;
   double costates = 0;

@@ -5,11 +5,13 @@
 
 namespace hamjet {
 
-/// The discrete geometry of the maximum principle: where in a step from k to k+1 the state x^d and
-/// the costate p^d are taken, the derivative being (x_(k+1) - x_k) / tau in both.
+/// The discrete geometry of the maximum principle: the points in a step from k to k+1 at which the
+/// state x^d and the costate p^d are taken. The derivative is (x_(k+1) - x_k) / tau in both
+/// geometries.
 enum class Discretization {
   stormer,   ///< (x^d, p^d, u^d) = (x_k, p_(k+1), u_k)
-  midpoint,  ///< the means of both ends; u^d is the unknown, for u_k and u_(k+1) do not occur alone
+  midpoint,  ///< the means of both ends; u^d is the unknown, because u_k and u_(k+1) do not occur
+             ///< separately
 };
 
 /// The names of Discretization in scenes, in the order of the enumeration.

@@ -8,10 +8,11 @@
 
 namespace hamjet {
 
-/// End conditions phi(x) = 0, r of them on n states, with what the transversality conditions need:
-/// D phi(x)^T lambda for r multipliers lambda, and all derivatives of both, exact.
+/// End conditions phi(x) = 0, r of them on n states, and the quantities that the transversality
+/// conditions need: D phi(x)^T lambda for r multipliers lambda, and the exact derivatives of phi
+/// and of this product.
 ///
-/// The augmented cost has + <lambda_0, phi_0> + <lambda_n, phi_n>, so that, in both discrete
+/// The augmented cost contains + <lambda_0, phi_0> + <lambda_n, phi_n>, so that, in both discrete
 /// geometries as in continuous time,
 ///
 ///   p_0 = -D phi_0(x_0)^T lambda_0 ,   p_n = +D phi_n(x_n)^T lambda_n
@@ -31,7 +32,7 @@ class EndConditions {
   Eigen::VectorXd covector() const;        ///< D phi(x)^T lambda, n
   Eigen::MatrixXd covector_slope() const;  ///< derivative of the covector by x, n x n
 
-  /// The multipliers whose D phi(x)^T lambda comes nearest to a covector of n numbers.
+  /// The multipliers for which D phi(x)^T lambda is nearest to a given covector of n numbers.
   Eigen::VectorXd nearest_multipliers(std::span<const double> x, const Eigen::VectorXd& covector);
 
  private:

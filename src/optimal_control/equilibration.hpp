@@ -6,15 +6,15 @@
 
 namespace hamjet {
 
-/// Factors by which rows and columns of a matrix are multiplied so that the largest entry of each
-/// is near 1: ranks and norms then do not depend on the units of unknowns and equations.
+/// Factors by which the rows and columns of a matrix are multiplied so that the largest entry of
+/// each is near 1. Ranks and norms then do not depend on the units of unknowns and equations.
 struct Equilibration {
   Eigen::VectorXd rows;
   Eigen::VectorXd columns;
 };
 
-/// Ruiz's iteration: rows and columns are divided by the square roots of their largest entries, a
-/// few times. Rows and columns of zeros keep the factor 1. For dense and sparse matrices.
+/// Ruiz's iteration for dense and sparse matrices: rows and columns are divided by the square roots
+/// of their largest entries, a few times. Rows and columns of zeros keep the factor 1.
 template <class Matrix>
 Equilibration equilibrate(const Matrix& matrix) {
   constexpr int sweeps = 8;

@@ -6,13 +6,13 @@
 
 namespace hamjet {
 
-/// Optimise, then discretise: the canonical equations of the reduced Hamiltonian by the symplectic
-/// scheme of the discrete modified Hamilton's principle,
+/// The approach "optimise, then discretise": the canonical equations of the reduced Hamiltonian are
+/// solved by the symplectic scheme of the discrete modified Hamilton's principle,
 ///
 ///   z_(k+1) - z_k = tau J grad Hbar(z^d) ,   z^d = (x^d, p^d) .
 ///
-/// Source: Guibout and Bloch, eq. tmp4 and the Stormer form of the Heisenberg problem. The paper's
-/// diagram says that this is the discrete maximum principle.
+/// Source: Guibout and Bloch, eq. tmp4 and the Stormer form of the Heisenberg problem. By the
+/// paper's diagram the result equals that of the discrete maximum principle.
 class HamiltonianDiscretization : public AdvanceMap {
  public:
   HamiltonianDiscretization(const OptimalControlProblem& problem, Discretization discretization,
@@ -24,7 +24,7 @@ class HamiltonianDiscretization : public AdvanceMap {
  private:
   ReducedHamiltonian hamiltonian_;
   double step_;
-  Eigen::VectorXd weights_;  ///< of z_(k+1) in z^d, a component each
+  Eigen::VectorXd weights_;  ///< weight of each component of z_(k+1) in z^d
 };
 
 }  // namespace hamjet

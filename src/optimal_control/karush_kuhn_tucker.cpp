@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// One step's part of the augmented cost, a function of (x_k, u_k, mu_k, x_(k+1)).
+/// The contribution of one step to the augmented cost, as a function of (x_k, u_k, mu_k, x_(k+1)).
 OperationList step_cost(const OptimalControlProblem& problem, Discretization discretization,
                         double step) {
   const std::size_t n = problem.states;
@@ -36,8 +36,8 @@ std::span<const double> span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-/// Gradient and Hessian of the augmented cost. Unknowns: lambda_0, then (x_k, u_k, mu_k) of each
-/// step, x_N, lambda_n: a step's part of the cost has neighbouring unknowns.
+/// Gradient and Hessian of the augmented cost. The unknowns are lambda_0, then (x_k, u_k, mu_k) of
+/// each step, then x_N and lambda_n, so that the unknowns of one step stand together.
 class AugmentedCost {
  public:
   AugmentedCost(const OptimalControlProblem& problem, Discretization discretization, double step,
@@ -51,7 +51,8 @@ class AugmentedCost {
         m_(static_cast<Eigen::Index>(problem.controls)),
         steps_(static_cast<Eigen::Index>(steps)) {}
 
-  /// All unknowns; the last ones are the conditions' own multipliers, zero at a solution.
+  /// All unknowns; the last ones are the multipliers of the conditions, which are zero at a
+  /// solution.
   Eigen::Index unknowns() const { return unconditioned() + conditions(); }
   Eigen::Index conditions() const { return *conditions_ ? (*conditions_)->values.size() : 0; }
 
@@ -72,8 +73,8 @@ class AugmentedCost {
     return s;
   }
 
-  /// The gradient, bordered by the conditions on p_0 = -D phi_0^T lambda_0; the bordered Hessian
-  /// too if it is wanted.
+  /// The gradient, followed by the conditions on p_0 = -D phi_0^T lambda_0; if it is wanted, also
+  /// the Hessian with the rows and columns of these conditions.
   Eigen::VectorXd gradient_at(const Eigen::VectorXd& s,
                               std::vector<Eigen::Triplet<double>>* hessian) {
     Eigen::VectorXd r = Eigen::VectorXd::Zero(unknowns());
@@ -120,7 +121,7 @@ class AugmentedCost {
   Eigen::Index stride() const { return 2 * n_ + m_; }
   Eigen::Index place(Eigen::Index k) const { return initial_count() + k * stride(); }
 
-  /// Adds <lambda, phi(x)>, with x and lambda at these places of s.
+  /// Adds <lambda, phi(x)>, where x and lambda are at these places of s.
   void add_end(const Eigen::VectorXd& s, EndConditions& end, Eigen::Index x, Eigen::Index lambda,
                Eigen::VectorXd& r, std::vector<Eigen::Triplet<double>>* hessian) const {
     const auto count = static_cast<Eigen::Index>(end.count());
@@ -141,8 +142,8 @@ class AugmentedCost {
     }
   }
 
-  /// Adds <direction, -D phi_0^T lambda_0> - value = 0, and the border that makes the equations
-  /// square: a further multiplier of each condition, which enters the equations of phi_0.
+  /// Adds the conditions <direction, -D phi_0^T lambda_0> - value = 0. For each condition a further
+  /// multiplier, which enters the equations of phi_0, makes the system square.
   void add_conditions(const Eigen::VectorXd& s, Eigen::VectorXd& r,
                       std::vector<Eigen::Triplet<double>>* derivatives) {
     const CostateConditions& given = **conditions_;

@@ -27,7 +27,7 @@ std::vector<double> LagrangianPlane::phases() const {
   const Eigen::MatrixXcd w =
       frame_.bottomRows(n).cast<Complex>() + Complex(0, 1) * frame_.topRows(n).cast<Complex>();
   const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(w * w.transpose(), false);
-  // Of a matrix of one number the solver tells success whatever it is.
+  // For a 1 x 1 matrix the solver always reports success.
   if (solver.info() != Eigen::Success || !frame_.allFinite()) {
     throw Error(ErrorKind::numerical,
                 "second variation: the eigenvalues of the Lagrangian plane are not found");

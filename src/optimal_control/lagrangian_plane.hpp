@@ -6,8 +6,8 @@
 
 namespace hamjet {
 
-/// The plane of an extremal's neighbours that start from the same state with other costates, in the
-/// phase space of n states and n costates. It starts as the plane of the costates.
+/// The plane of the neighbours of an extremal that start from the same state with other costates,
+/// in the phase space of n states and n costates. At the start it is the plane of the costates.
 class LagrangianPlane {
  public:
   explicit LagrangianPlane(Eigen::Index n);
@@ -15,8 +15,8 @@ class LagrangianPlane {
   /// Moves the plane by the 2n x 2n Jacobian of a symplectic map.
   void advance(const Eigen::MatrixXd& jacobian);
 
-  /// The phases, ascending, of the n eigenvalues of U = W W^T, where W = D + i B is unitary if the
-  /// columns (B, D) of the plane are orthonormal; U does not depend on the basis.
+  /// The phases, ascending, of the n eigenvalues of U = W W^T. W = D + i B is unitary if the
+  /// columns (B, D) of the plane are orthonormal; U does not depend on the choice of these columns.
   std::vector<double> phases() const;
 
  private:

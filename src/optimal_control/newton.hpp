@@ -9,19 +9,19 @@
 
 namespace hamjet {
 
-/// Residual of square equations and its exact derivative.
+/// The residual of square equations, and its exact derivative.
 struct Linearization {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;
 };
 
-/// Solves the equations of one step, `linearize(w)` = 0, by Newton from `w`, to round-off, and
-/// returns the linearization at the solution. Undamped: a step is short enough for its start to be
-/// near. Throws Error(numerical) that names `what`.
+/// Solves the equations of one step, `linearize(w)` = 0, by Newton's method from `w`, to round-off,
+/// and returns the linearization at the solution. The method is not damped, because the start of a
+/// short step is near the solution. Throws Error(numerical) that names `what`.
 template <class Linearize>
 Linearization solve_step(Eigen::VectorXd& w, std::string_view what, const Linearize& linearize) {
   constexpr int most_iterations = 50;
-  // The square of an update this small, relative to the unknowns, is below their rounding.
+  // An update whose square is below the rounding of the unknowns, relative to these.
   constexpr double small_update = 1e-8;
   double scale = w.lpNorm<Eigen::Infinity>();
   double update = 0;

@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// Recorded functions know their dependencies by bits of a 64-bit number.
+/// Recorded functions store the dependencies of a value as bits of a 64-bit number.
 constexpr std::size_t most_numbers = 60;
 
 void require_size(const OptimalControlProblem& problem, std::string_view what, std::size_t found,

@@ -17,9 +17,9 @@ namespace hamjet {
 ///   minimise the integral of g(x, u)  subject to  x' = f(x, u),  phi_0(x(0)) = 0,
 ///   phi_n(x(T)) = 0,
 ///
-/// with n states and m controls; none of the functions depends on time. Fewer end conditions than
-/// states leave the end point free in the others: the transversality conditions take their place.
-/// Source: Guibout and Bloch, eqs. def_optimalpb, dyn, boundcond.
+/// with n states and m controls; none of the functions depends on time. If there are fewer end
+/// conditions than states, the end point is partly free, and the transversality conditions take the
+/// place of the missing ones. Source: Guibout and Bloch, eqs. def_optimalpb, dyn, boundcond.
 struct OptimalControlProblem {
   std::string name;
   std::size_t states = 0;
@@ -30,8 +30,8 @@ struct OptimalControlProblem {
   OperationList final_conditions;    ///< phi_n: n inputs, at most n outputs
 };
 
-/// Running cost and dynamics, written as templates over their number type, of spans of n states and
-/// m controls. They are run once, on Expressions.
+/// Running cost and dynamics as templates over their number type, functions of spans of n states
+/// and m controls. They are run once, on Expressions.
 template <class Functions>
 concept OptimalControlFunctions = requires(const Functions& functions,
                                            std::span<const Expression> x) {
@@ -39,8 +39,8 @@ concept OptimalControlFunctions = requires(const Functions& functions,
   { functions.dynamics(x, x) } -> std::convertible_to<std::vector<Expression>>;
 };
 
-/// Returns the problem if its sizes fit. Throws Error(usage) otherwise, naming the function, its
-/// size and the right one, and for no states, no controls or 4 n + m > 60.
+/// Returns the problem if its sizes fit. Otherwise throws Error(usage) that names the function, its
+/// size and the right size; also for no states, no controls or 4 n + m > 60.
 OptimalControlProblem checked(OptimalControlProblem problem);
 
 /// Records a problem. `functions` gives g and f, the lists are phi_0 and phi_n; see fixed_state and
@@ -65,7 +65,7 @@ OptimalControlProblem make_optimal_control_problem(std::string name, std::size_t
   return checked(std::move(problem));
 }
 
-/// The end conditions x - values = 0: an end point that is fixed in full.
+/// The end conditions x - values = 0, which fix the end point completely.
 OperationList fixed_state(std::span<const double> values);
 
 /// The end conditions x_i - value = 0 for some of the n components, the others being free. Throws

@@ -12,7 +12,7 @@ namespace hamjet {
 struct ReducedHamiltonianValue {
   Eigen::VectorXd control;  ///< u(x, p), m
   double hamiltonian = 0;
-  Eigen::VectorXd gradient;  ///< by (x, p), 2n
+  Eigen::VectorXd gradient;  ///< with respect to (x, p), 2n
   Eigen::MatrixXd hessian;   ///< 2n x 2n
 };
 
@@ -23,8 +23,8 @@ class ReducedHamiltonian {
  public:
   explicit ReducedHamiltonian(const OptimalControlProblem& problem);
 
-  /// Evaluates at (x, p), 2n numbers; `control_guess` starts Newton's iteration for the controls.
-  /// Throws Error(numerical) if D3 H = 0 cannot be solved for them.
+  /// Evaluates at (x, p), 2n numbers. Newton's iteration for the controls starts at
+  /// `control_guess`. Throws Error(numerical) if D3 H = 0 cannot be solved for the controls.
   ReducedHamiltonianValue evaluate(const Eigen::VectorXd& point,
                                    const Eigen::VectorXd& control_guess);
 

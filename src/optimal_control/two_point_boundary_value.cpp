@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// By how many typical sizes a solution may miss the equations.
+/// The largest violation of the equations by a solution, in units of the typical sizes.
 constexpr double largest_violation = 1e-8;
 
 void require(bool is_right, const std::string& problem) {
@@ -43,8 +43,9 @@ void check(const AdvanceMap& map, const OptimalControlProblem& problem,
   }
 }
 
-/// The equations of multiple shooting. Unknowns: the points at the intervals' starts, lambda_0,
-/// lambda_n; equations in the order in which the header names them, the extra conditions last.
+/// The equations of multiple shooting. The unknowns are the points at the starts of the intervals,
+/// lambda_0 and lambda_n. The equations stand in the order in which the header names them, with the
+/// extra conditions last.
 class ShootingEquations {
  public:
   ShootingEquations(AdvanceMap& map, const OptimalControlProblem& problem,
@@ -62,8 +63,8 @@ class ShootingEquations {
     return settings_->conditions ? settings_->conditions->values.size() : 0;
   }
 
-  /// The start of the iteration: the points of the trajectory that the first state and costate lead
-  /// to, and the multipliers nearest to its ends.
+  /// The start of the iteration: points of the trajectory that the first state and costate lead to,
+  /// and the best-fitting multipliers at its ends.
   Eigen::VectorXd start() {
     Eigen::VectorXd point(2 * n_);
     point << settings_->state_guess, settings_->costate_guess;
@@ -102,7 +103,7 @@ class ShootingEquations {
     return r;
   }
 
-  /// The derivative of the residual at the place where it was last evaluated.
+  /// The derivative of the residual at the place of its last evaluation.
   Eigen::MatrixXd matrix() const {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(unknowns() + conditions(), unknowns());
     const Eigen::Index first_multiplier = 2 * n_ * intervals_;
@@ -129,7 +130,7 @@ class ShootingEquations {
     return a;
   }
 
-  /// The solution from all arcs joined and the multipliers in `s`.
+  /// The solution: all arcs joined, and the multipliers in `s`.
   ShootingSolution solution(const Eigen::VectorXd& s) const {
     Arc whole;
     for (const Arc& arc : arcs_) {
@@ -162,8 +163,9 @@ class ShootingEquations {
     return arcs_[static_cast<std::size_t>(j)].jacobian;
   }
 
-  /// The typical size of each end condition is what typical states make of it at the guess, and
-  /// that of its multiplier such that their product is a state's with its costate.
+  /// The typical size of an end condition is the size that it has for typical states at the guess.
+  /// The size of its multiplier is such that the product of both equals that of a state and its
+  /// costate.
   void set_scale(std::span<const double> first, std::span<const double> last) {
     const auto given = [&](const Eigen::VectorXd& sizes) {
       return sizes.size() > 0 ? sizes : Eigen::VectorXd::Ones(n_).eval();
@@ -229,7 +231,7 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
       s, "shooting", settings.newton,
       [&](const Eigen::VectorXd& place) { return equations.residual(place); },
       [&](const Eigen::VectorXd& place) {
-        // A step that was tried and refused has left the equations evaluated elsewhere.
+        // After a step that was tried and refused, the equations were last evaluated elsewhere.
         const Eigen::VectorXd r = equations.residual(place);
         const Eigen::MatrixXd matrix = equations.matrix();
         const Equilibration& scale = equations.scale();
@@ -239,8 +241,8 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
         const Eigen::VectorXd change = decomposition.solve(scale.rows.cwiseProduct(r));
         return NewtonStep{-scale.columns.cwiseProduct(change), decomposition.rank(), scale};
       });
-  // Newton's tolerance is relative to the unknowns, which may have run away: the equations must
-  // hold for the typical sizes too.
+  // Newton's tolerance is relative to the unknowns, which may have grown without bound; the
+  // equations must therefore also hold relative to the typical sizes.
   const double violation =
       equations.scale().rows.cwiseProduct(equations.residual(s)).lpNorm<Eigen::Infinity>();
   if (!(violation <= largest_violation)) {

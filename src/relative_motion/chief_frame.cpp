@@ -27,7 +27,7 @@ ChiefFrame::ChiefFrame(std::span<const double> chief, const MetricUnits& units, 
   const Eigen::Vector3d r = vector_at(chief, 0);
   const Eigen::Vector3d v = vector_at(chief, 3);
   const Eigen::Vector3d h = r.cross(v);
-  // Below this share of |r| |v| the direction of h is round-off.
+  // Where |h| is below this fraction of |r| |v|, the direction of h is round-off.
   constexpr double least_sine = 1e-12;
   if (!(h.norm() > least_sine * r.norm() * v.norm())) {
     throw Error(ErrorKind::numerical,

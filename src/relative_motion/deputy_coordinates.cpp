@@ -22,8 +22,8 @@ ExtendedVector part(const Numbers& state, std::size_t first) {
   return {state[first], state[first + 1], state[first + 2]};
 }
 
-/// The axes R, T, N of a state in extended precision, and how they and the distance move on the
-/// osculating orbit.
+/// The axes R, T, N of a state in extended precision, and the rates at which these axes and the
+/// distance change on the osculating orbit.
 struct OrbitAxes {
   explicit OrbitAxes(const Numbers& state) {
     const ExtendedVector r = part(state, 0), v = part(state, 3), h = cross(r, v);
@@ -53,7 +53,8 @@ struct OrbitAxes {
 
 Extended degree() { return boost::math::constants::pi<Extended>() / 180; }
 
-/// The frame of the forms that are linear in the deviation; of the others any that always exists.
+/// The frame of a form that is linear in the deviation. For the other forms it is not used, and any
+/// frame that always exists serves.
 RelativeFrame linear_frame(DeputyForm form) {
   switch (form) {
     case DeputyForm::rtn_rotating:
@@ -264,7 +265,8 @@ Numbers DeputyCoordinates::deputy_from_elements(const Numbers& given) const {
   const Extended node =
       is_relative ? Extended(given[5] / size / sin(chief.inclination)) : given[5] * degree();
   const Extended along = is_relative ? Extended(given[1] / size) : given[1] * degree();
-  // The same place would be told by other numbers, of fewer turns.
+  // Beyond half a turn the same place has another angle, with fewer turns, so that the given number
+  // would not come back.
   const Extended half_turn = boost::math::constants::pi<Extended>();
   if (!(abs(node) <= half_turn) || !(abs(along) <= half_turn)) {
     throw Error(ErrorKind::numerical,
@@ -285,7 +287,8 @@ Numbers DeputyCoordinates::deputy_from_elements(const Numbers& given) const {
     deputy.true_argument_of_latitude += along;
     deputy.mean_argument_of_latitude = mean_argument_of_latitude(deputy);
   }
-  // Beyond the equator's plane the node would be the opposite one, and so not the one given.
+  // An inclination outside 0 to 180 degrees would be turned into one inside, with the opposite node
+  // in place of the given one.
   if (!(sin(deputy.inclination) > 0)) {
     throw Error(ErrorKind::numerical,
                 "relative elements: the deputy's inclination must be between 0 and 180 deg");

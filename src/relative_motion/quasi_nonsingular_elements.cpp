@@ -17,8 +17,8 @@ struct Direction {
   Extended sine;
 };
 
-/// The share eta = sqrt(1 - e^2), and what the closed formulas use of it. Throws unless the orbit
-/// is an ellipse.
+/// eta = sqrt(1 - e^2), and the quantities that the closed formulas make of eta. Throws unless the
+/// orbit is an ellipse.
 struct Ellipse {
   explicit Ellipse(const QuasiNonsingularElements& elements)
       : x(elements.eccentricity_x), y(elements.eccentricity_y) {
@@ -34,7 +34,8 @@ struct Ellipse {
   Extended x, y, eta, beta;
 };
 
-/// The eccentric argument of latitude F from that of the mean one, within |F - u| <= e.
+/// The eccentric argument of latitude F that belongs to a mean argument of latitude u, with |F - u|
+/// <= e.
 Extended eccentric_argument(const Ellipse& ellipse, const Extended& mean) {
   const Extended e = sqrt(ellipse.x * ellipse.x + ellipse.y * ellipse.y);
   const auto miss = [&](const Extended& F) -> MissAndSlope {
@@ -45,7 +46,7 @@ Extended eccentric_argument(const Ellipse& ellipse, const Extended& mean) {
   return root_in_bracket(miss, mean - e, mean + e, mean);
 }
 
-/// The place on the ellipse as a multiple of a, along the line of nodes and across it.
+/// The position on the ellipse, as a multiple of a, along the line of nodes and across it.
 Direction place_at(const Ellipse& ellipse, const Extended& eccentric) {
   const auto& [x, y, eta, beta] = ellipse;
   const Extended sine = sin(eccentric), cosine = cos(eccentric);
@@ -53,7 +54,8 @@ Direction place_at(const Ellipse& ellipse, const Extended& eccentric) {
           (1 - x * x * beta) * sine + x * y * beta * cosine - y};
 }
 
-/// The eccentric argument of latitude of a place on the ellipse in the given direction, near it.
+/// The eccentric argument of latitude of the position that lies on the ellipse in the given
+/// direction, on the same turn as `near`.
 Extended eccentric_argument_of(const Ellipse& ellipse, const Direction& direction) {
   const auto& [x, y, eta, beta] = ellipse;
   const Extended r = eta * eta / (1 + x * direction.cosine + y * direction.sine);
@@ -74,7 +76,7 @@ Extended true_argument_of_latitude(const QuasiNonsingularElements& elements) {
   const Ellipse ellipse(elements);
   const Extended& mean = elements.mean_argument_of_latitude;
   const Direction place = place_at(ellipse, eccentric_argument(ellipse, mean));
-  // The true argument is within half a turn of the mean one.
+  // The true argument of latitude is within half a turn of the mean one.
   return mean + within_half_turn(atan2(place.sine, place.cosine) - mean);
 }
 
@@ -98,7 +100,7 @@ QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, con
   const ExtendedVector h = cross(r, v);
   const Extended distance = sqrt(dot(r, r)), momentum = sqrt(dot(h, h));
   const Extended across = sqrt(h[0] * h[0] + h[1] * h[1]);
-  // A node nearer to undefined than this would be what rounding of the state makes of it.
+  // For a smaller inclination the rounding of the state alone would decide where the node is.
   const Extended least_sine("1e-12");
   if (!(momentum > least_sine * distance * sqrt(dot(v, v)))) {
     refuse("is a line through the centre, without a plane");
@@ -114,7 +116,7 @@ QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, con
   elements.semi_major_axis = 1 / inverse_a;
   elements.inclination = atan2(across, h[2]);
   elements.ascending_node = atan2(h[0], Extended(-h[1]));
-  // The place along the line of nodes and across it, over the distance.
+  // The position along the line of nodes and across it, divided by the distance.
   const ExtendedVector node = {-h[1] / across, h[0] / across, 0};
   const Extended cosine = dot(r, node) / distance;
   const Extended sine = dot(r, cross(h, node)) / (momentum * distance);
@@ -135,7 +137,7 @@ OrbitState state_from_elements(const QuasiNonsingularElements& elements, const E
       place_at(ellipse, eccentric_argument(ellipse, elements.mean_argument_of_latitude));
   const Extended r = sqrt(place.cosine * place.cosine + place.sine * place.sine);
   const Extended speed = sqrt(mu / a) / ellipse.eta;  // mu / |h|
-  // Along the line of nodes and across it in the orbit's plane.
+  // Position and velocity along the line of nodes and across it, in the orbit's plane.
   const std::array<Extended, 2> along = {a * place.cosine, -speed * (place.sine / r + ellipse.y)};
   const std::array<Extended, 2> across = {a * place.sine, speed * (place.cosine / r + ellipse.x)};
   const Extended cos_node = cos(elements.ascending_node), sin_node = sin(elements.ascending_node);

@@ -10,9 +10,9 @@ namespace hamjet {
 /// Position and velocity in inertial axes, in units of the caller's choice.
 using OrbitState = std::array<Extended, 6>;
 
-/// Elements of an elliptic orbit that are regular on a circle, though not in the equatorial plane:
-/// with the argument of perigee w they are e cos w, e sin w, and u = w + M in place of e, w and the
-/// mean anomaly M. Angles are in radians.
+/// Elements of an elliptic orbit that are regular on a circle, though not in the equatorial plane.
+/// With the argument of perigee w and the mean anomaly M, they have e cos w, e sin w and u = w + M
+/// in place of e, w and M. Angles are in radians.
 struct QuasiNonsingularElements {
   Extended semi_major_axis;
   Extended mean_argument_of_latitude;  ///< u
@@ -23,8 +23,9 @@ struct QuasiNonsingularElements {
   Extended ascending_node;
 };
 
-/// The elements of a state. Throws Error(numerical), which names the satellite, for orbits that are
-/// not elliptic, and for those in the equatorial plane or through the centre, which have no node.
+/// The elements of a state. Throws Error(numerical) for orbits that are not elliptic, and for
+/// orbits in the equatorial plane or through the centre, which have no node; the message names the
+/// satellite.
 QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, const Extended& mu,
                                                     std::string_view satellite);
 
@@ -36,13 +37,14 @@ QuasiNonsingularElements quasi_nonsingular_elements(const OrbitState& state, con
 /// Broucke and P. J. Cefola, "On the equinoctial orbit elements", Celestial Mechanics 5 (1972).
 OrbitState state_from_elements(const QuasiNonsingularElements& elements, const Extended& mu);
 
-/// The true argument of latitude of a mean one. Throws as state_from_elements.
+/// The true argument of latitude that belongs to the mean one. Throws as state_from_elements.
 Extended true_argument_of_latitude(const QuasiNonsingularElements& elements);
 
-/// The mean argument of latitude of a true one, in place of the one that the elements have.
+/// The mean argument of latitude that belongs to this true one; the mean one among the elements is
+/// not read.
 Extended mean_argument_of_latitude(const QuasiNonsingularElements& elements);
 
-/// An angle less whole turns, in (-pi, pi].
+/// An angle reduced by whole turns to (-pi, pi].
 Extended within_half_turn(const Extended& angle);
 
 }  // namespace hamjet

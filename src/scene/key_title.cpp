@@ -13,7 +13,8 @@
 namespace hamjet::io {
 namespace {
 
-/// Tables of which a scene has one, about what all of it is: their names would say nothing.
+/// Tables of which a scene has only one and which concern the whole scene: their names would add
+/// nothing to a title.
 constexpr std::string_view unsaid_tables[] = {"nominal", "jet", "system"};
 
 std::vector<std::string_view> parts_of(std::string_view key) {
@@ -31,7 +32,7 @@ std::string in_words(std::string_view name) {
   return words;
 }
 
-/// Elements have symbols as names, and what they are called as help.
+/// Keys of elements are symbols; their help has the name in words.
 std::string name_in_words(std::string_view name) {
   constexpr std::size_t longest_symbol = 4;
   if (without_unit(name).size() > longest_symbol) return in_words(name);

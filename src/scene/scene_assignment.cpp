@@ -16,7 +16,7 @@ const TableDescription& slot_table() {
   return table;
 }
 
-/// The states of the tables of a key, each read by `read`.
+/// The states in the tables of a key; `read` reads each.
 template <class State, class Read>
 std::vector<State> read_states(const TableReader& assignment, std::string_view key,
                                const TableDescription& description, const Read& read) {

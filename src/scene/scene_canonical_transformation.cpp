@@ -11,7 +11,7 @@
 namespace hamjet::io {
 namespace {
 
-/// More step sizes could not be told apart in a figure.
+/// A figure could not distinguish more step sizes.
 constexpr std::size_t most_step_sizes = 8;
 
 const std::vector<std::string_view> forms = {"rotation_cosine", "rotation_angle_rad", "matrix"};
@@ -31,7 +31,7 @@ AffineSymplecticMap<Extended> read_rotation(const TableReader& table, std::strin
 }
 
 /// Refuses a matrix that is not symplectic to the rounding of its decimals. The nearest symplectic
-/// one in extended precision, in which its powers are formed, takes its place.
+/// matrix in extended precision replaces it, because its powers are formed in that precision.
 AffineSymplecticMap<Extended> read_matrix(const TableReader& table, std::size_t size) {
   const std::vector<double> entries = table.square_matrix("matrix", size);
   const auto rows = static_cast<Eigen::Index>(size);

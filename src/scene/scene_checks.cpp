@@ -24,7 +24,7 @@ SelfCheckSetting read_check(const TableReader& table, SelfCheckName name) {
   return setting;
 }
 
-/// What each check looks at, in the order of the enumeration.
+/// The quantity that each check examines, in the order of the enumeration.
 constexpr std::string_view subjects[self_check_count] = {
     "every number of the result is finite",
     "the equations of implicit methods are solved to round-off",

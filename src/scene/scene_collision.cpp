@@ -7,7 +7,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Parts of the chief's distance from the centre: the flows themselves are told to 1e-12 of it.
+/// Largest radius, as a fraction of the chief's distance from the centre.
 constexpr double largest_radius = 0.01;
 constexpr double smallest_radius = 1e-10;
 constexpr int fewest_samples = 1000;
@@ -56,7 +56,7 @@ std::array<double, 2> read_window(const TableReader& table, const Scene& scene) 
                              "it begins",
                              window[0], window[1]));
     }
-    // The end may be written rounded.
+    // The end of the window may have been rounded when it was written.
     constexpr double rounding = 1e-9;
     if (window[1] > duration_s * (1 + rounding)) {
       table.fail("window_s", fmt::format("beyond the scene's end, got {}, must be at most the "

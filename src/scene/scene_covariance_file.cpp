@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::string_view file_key = "file";
 
-/// A covariance of a message in metres, where it stands, and the state that it is of.
+/// A covariance of a message, in metres, with its place in the file and the state that it belongs
+/// to.
 struct GivenCovariance {
   Epoch epoch;
   std::string time_system;
@@ -25,11 +26,12 @@ struct GivenCovariance {
   Matrix<double> matrix;
   std::size_t line = 0;
   KnownState state;
-  bool has_state = true;   ///< an OEM may have none at that epoch
+  bool has_state = true;   ///< an OEM may have no state at that epoch
   std::string place = {};  ///< OBJECT1 or OBJECT2 of a CDM
 };
 
-/// What is read of a file: the covariances of the wanted object, or of all that may be.
+/// The content of a file: the covariances of the wanted object, or of all objects that may be
+/// meant.
 struct CovariancesOfFile {
   std::vector<GivenCovariance> found;
   std::vector<std::string> doubts;
@@ -78,7 +80,7 @@ GivenCovariance of_conjunction(const ConjunctionDataMessage& message, std::size_
   return given;
 }
 
-/// All covariances of a file, of the object that the table names if it does.
+/// All covariances of a file, or only those of the object that the table names.
 CovariancesOfFile covariances_of(const TableReader& table, const std::string& name,
                                  const std::string& text, double mu_km3_s2) {
   CovariancesOfFile file;
@@ -137,7 +139,7 @@ class CovarianceFile {
   }
 
  private:
-  /// The only covariance of the chief's moment that may be meant.
+  /// The covariance at the chief's moment, which must be the only one that can be meant.
   GivenCovariance chosen() const {
     const std::string text = table_.content_beside_scene(file_key, largest_orbit_message_bytes);
     CovariancesOfFile file = covariances_of(table_, name_, text, nominal_.centre.system.mu_km3_s2);
@@ -184,7 +186,7 @@ class CovarianceFile {
         return given.place == owner_.object_of_cdm;
       });
     }
-    // Of several objects in an ephemeris the owner is meant.
+    // If an ephemeris has several objects, the owner of the table is meant.
     std::vector<GivenCovariance> own;
     for (const GivenCovariance& given : all) {
       const bool is_known = !given.state.names.empty() && !owner_.state.names.empty();
@@ -210,7 +212,7 @@ class CovarianceFile {
     return own[0];
   }
 
-  /// Refuses a covariance about another centre, of another state or of another object.
+  /// Refuses a covariance that is about another centre, another state or another object.
   void require_same_spacecraft(const GivenCovariance& given) const {
     const KnownState& own = owner_.state;
     const std::string in_line = fmt::format("in {}:{}", name_, given.line);
@@ -244,7 +246,7 @@ class CovarianceFile {
     const double of_position = deviation_km(0);
     double of_velocity = deviation_km(3);
     if (frame_of(given) == RelativeFrame::rtn_rotating) {
-      // Inertial velocities have the turn of the axes besides.
+      // Inertial velocities also contain the rotation of the axes.
       of_velocity +=
           of_position * owner_.state.velocity_km_s.norm() / owner_.state.position_km.norm();
     }

@@ -17,7 +17,8 @@ struct Ellipse {
   Extended e;
 };
 
-/// A way to say size and shape: the keys that it needs, all of them, and what reads them.
+/// A way to give size and shape of an orbit: the keys that are needed together, and the function
+/// that reads them.
 struct SizeForm {
   std::vector<std::string_view> keys;
   Ellipse (*read)(const TableReader& table, const SceneCentre& centre);
@@ -38,7 +39,7 @@ double read_eccentricity(const TableReader& table) {
   return e;
 }
 
-/// The distance from the centre at a height.
+/// The distance from the centre that belongs to a height.
 Extended distance_km(const TableReader& table, std::string_view key, const SceneCentre& centre) {
   const double radius = centre.system.radius_km;
   if (!(radius > 0)) {
@@ -64,7 +65,7 @@ Ellipse of_heights(const TableReader& table, const SceneCentre& centre) {
   const Extended perigee = distance_km(table, "perigee_height_km", centre);
   const Extended apogee = distance_km(table, "apogee_height_km", centre);
   const Ellipse ellipse = {(perigee + apogee) / 2, (apogee - perigee) / (apogee + perigee)};
-  // An apogee of 1e300 km rounds to e = 1.
+  // An apogee of 1e300 km would round to e = 1.
   if (!(ellipse.e >= 0 && ellipse.e < 1)) {
     table.fail(
         "apogee_height_km",
@@ -100,7 +101,8 @@ std::string listed_size_forms() {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The form of the first key of a size that the table has; e alone is none.
+/// The form that belongs to the first key of a size that the table has; e alone does not determine
+/// a form.
 const SizeForm& size_form_of(const TableReader& table) {
   for (const SizeForm& form : size_forms()) {
     for (const std::string_view key : form.keys) {
@@ -111,7 +113,7 @@ const SizeForm& size_form_of(const TableReader& table) {
                              listed_size_forms()));
 }
 
-/// Refuses keys of which no form has both.
+/// Refuses keys that no form has together.
 void require_one_form(const TableReader& table) {
   std::vector<std::string_view> given;
   for (const std::string_view key : joined<std::string_view>({size_keys(), {"e"}})) {
@@ -157,8 +159,8 @@ Ellipse read_ellipse(const TableReader& table, const SceneCentre& centre) {
   return form.read(table, centre);
 }
 
-/// The argument of perigee and the true anomaly from there, into `elements`, whose eccentricity is
-/// known unless an error has been found in it.
+/// Reads the argument of perigee and the true anomaly into `elements`. The eccentricity is known,
+/// unless an error was found in it.
 void read_place(const TableReader& table, const std::optional<Ellipse>& ellipse,
                 OsculatingElements& elements) {
   const bool is_circle = ellipse && ellipse->e == 0;
@@ -178,7 +180,7 @@ void read_place(const TableReader& table, const std::optional<Ellipse>& ellipse,
   table.require({key});
   if (!is_good) throw AlreadySaid();
   const Extended angle_deg = table.number(key);
-  // On a circle without a perigee the latitude counts from the node.
+  // On a circle without a perigee the argument of latitude counts from the node.
   if (table.has("argp_deg")) elements.argument_of_perigee_deg = table.number("argp_deg");
   if (!ellipse) return;
   if (key == "u_deg") {
@@ -192,7 +194,7 @@ void read_place(const TableReader& table, const std::optional<Ellipse>& ellipse,
   }
 }
 
-/// The osculating state of one whose elements are mean ones.
+/// The osculating state that belongs to mean elements.
 CartesianState osculating_of_mean_elements(const TableReader& table, const SystemSettings& system,
                                            const CartesianState& mean) {
   if (system.J[2] == 0) {
@@ -203,7 +205,7 @@ CartesianState osculating_of_mean_elements(const TableReader& table, const Syste
   try {
     const OblateBody body{system.mu_km3_s2, system.radius_km, system.J[2]};
     const CartesianState state = osculating_of_mean(mean, body);
-    // That the way back exists says that J2 is small enough for the theory.
+    // The inverse exists only if J2 is small enough for the theory.
     mean_of_osculating(state, body);
     return state;
   } catch (const Error& error) {
@@ -236,7 +238,7 @@ const std::vector<std::string_view>& place_keys() {
 
 std::vector<SceneKey> element_keys(const std::vector<std::string_view>& owners) {
   const auto other_form = absent::other("another form");
-  // Angles go once around in either sense; what is beyond is no angle in degrees.
+  // Angles may go once around in either sense; a larger number is hardly an angle in degrees.
   const auto angle = form::between(-360, 360);
   return {
       {"a_km", form::positive(), other_form, "semi-major axis", owners},
@@ -263,7 +265,7 @@ std::vector<SceneKey> element_keys(const std::vector<std::string_view>& owners) 
 CartesianState read_elements(const TableReader& table, const SceneCentre& centre) {
   OsculatingElements elements;
   std::optional<Ellipse> ellipse;
-  // All that is wrong is told together.
+  // All errors are reported together.
   bool is_good = table.attempt([&] { ellipse = read_ellipse(table, centre); });
   is_good = table.attempt([&] { table.require({"i_deg", "raan_deg"}); }) && is_good;
   is_good = table.attempt([&] { read_place(table, ellipse, elements); }) && is_good;

@@ -7,21 +7,22 @@
 #include "scene_nominal_file.hpp"
 #include "tables/scene_table.hpp"
 
-// The state of a satellite by osculating elements, of which size and shape, and the place on the
-// ellipse, may be said in several ways.
+// The state of a satellite from osculating elements. Size and shape of the ellipse, and the place
+// on it, may be given in several ways.
 
 namespace hamjet::io {
 
 /// The keys of read_elements, which belong to `owners`.
 std::vector<SceneKey> element_keys(const std::vector<std::string_view>& owners = {});
 
-/// Those of them that say the size of the ellipse: an orbit by elements has one at least.
+/// The keys among these that give the size of the ellipse; an orbit in elements has at least one of
+/// them.
 const std::vector<std::string_view>& size_keys();
 
-/// Those of them that say the place on the ellipse, of which an orbit has one.
+/// The keys among these that give the place on the ellipse; an orbit in elements has one of them.
 const std::vector<std::string_view>& place_keys();
 
-/// The state by elements, of which none is rounded. Throws Error(scene).
+/// The state that the elements give, without rounding of the elements. Throws Error(scene).
 CartesianState read_elements(const TableReader& table, const SceneCentre& centre);
 
 }  // namespace hamjet::io

@@ -31,7 +31,7 @@ double read_first_step(const TableReader& table, double duration, const Canonica
   return step;
 }
 
-/// Tables of a flow jet are no misspelt keys: their owner deserves to know why there is none.
+/// Tables of a flow jet are not misspelt keys: the user should read why this study has no jet.
 void refuse_jet(const TableReader& root) {
   for (const std::string_view key : {"jet", "integrator"}) {
     if (!root.has(key)) continue;

@@ -37,7 +37,7 @@ std::string read_frame(const TableReader& ephemeris) {
   return frame;
 }
 
-/// Refuses the name of a body that has another gravitational parameter than the scene's centre.
+/// Refuses the name of a body whose gravitational parameter is not that of the scene's centre.
 void require_centre(const TableReader& ephemeris, const std::string& name,
                     const SystemSettings& system) {
   const CelestialBody* const body = body_named(name);
@@ -49,7 +49,7 @@ void require_centre(const TableReader& ephemeris, const std::string& name,
                              in_quotes(name), system.mu_km3_s2, body->mu_km3_s2));
 }
 
-/// Refuses a value other than that of the nominal's file, which the scene may only repeat.
+/// Refuses a value that differs from that of the nominal's file, which the scene may only repeat.
 void require_same(const TableReader& ephemeris, std::string_view key, const std::string& given,
                   const std::string& of_file) {
   if (given == of_file) return;
@@ -131,7 +131,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
     settings.reference_frame = read_frame(ephemeris);
   } else if (ephemeris.has("reference_frame")) {
     const std::string frame = read_frame(ephemeris);
-    // Another name of the same axes is no change.
+    // Another name of the same axes is not a contradiction.
     if (name_of_axes(frame) != name_of_axes(of_file.reference_frame)) {
       require_same(ephemeris, "reference_frame", frame, of_file.reference_frame);
     }
@@ -150,7 +150,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
   read(
       "center_name", settings.center_name, [&] { return message_text(ephemeris, "center_name"); },
       of_file.center_name);
-  // A nominal from a file has been compared with the scene's centre already.
+  // A nominal from a file has already been compared with the scene's centre.
   if (!file) require_centre(ephemeris, settings.center_name, system);
   const auto rename = [&](std::string_view key, std::string& value) {
     if (ephemeris.has(key)) value = message_text(ephemeris, key);

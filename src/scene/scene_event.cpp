@@ -6,7 +6,7 @@ namespace hamjet::io {
 namespace {
 
 constexpr int most_events = 100000;
-constexpr double largest_amplitude = 0.05;  // of the distance from the centre
+constexpr double largest_amplitude = 0.05;  // as a fraction of the distance from the centre
 
 /// Refuses a key that belongs to another surface.
 void refuse(const TableReader& event, std::string_view key, std::string_view surface) {
@@ -69,7 +69,7 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   }
   event.read_if_any("direction", settings.direction);
   event.read_if_any("number", settings.number);
-  // Deputies beyond it have orbits of their own, some of which meet the centre.
+  // Deputies beyond this distance have quite different orbits, some of which meet the centre.
   const double most_m = largest_amplitude * Eigen::Vector3d(scene.nominal.data()).norm() *
                         scene.units.length_km * 1000;
   if (!event.has("amplitudes_m")) {

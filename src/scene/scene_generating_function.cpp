@@ -10,8 +10,9 @@
 namespace hamjet::io {
 namespace {
 
-/// An orbit in the equatorial plane stays there if the gravity field is symmetric about it (no odd
-/// zonal coefficient), so that x, y, px, py are a system of their own, with two degrees of freedom.
+/// An orbit in the equatorial plane stays there if the gravity field is symmetric about this plane
+/// (no odd zonal coefficient). Then x, y, px, py are a system of their own, with two degrees of
+/// freedom.
 bool is_planar_subsystem(const Scene& scene) {
   constexpr std::size_t z = 2, pz = 5;
   return is_orbit(scene.system.model) && scene.system.J.is_even() && scene.nominal[z] == 0 &&
@@ -65,7 +66,7 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
   const std::vector<std::string> kinds = generating_function.texts("kinds");
   const std::size_t degrees_of_freedom =
       degrees_of_freedom_of_kinds(generating_function, "kinds", scene);
-  std::map<std::string, std::string> named;  // explicit kind -> as the scene names it
+  std::map<std::string, std::string> named;  // for each explicit kind, the name that the scene uses
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string kind = explicit_kind(kinds[i], degrees_of_freedom);
     if (kind.empty()) {

@@ -24,7 +24,8 @@ constexpr std::size_t longest_label = 100;
 
 constexpr double least_extended_tolerance = 1e-30;
 
-/// The files that stand beside the integrators' directories in the output.
+/// Names of files that stand beside the integrators' directories in the output, which a label must
+/// not have.
 bool is_reserved(std::string_view label) {
   static constexpr std::string_view names[] = {"summary.json",       "relative_hamiltonian.csv",
                                                "compare.json",       "compare.csv",
@@ -41,7 +42,7 @@ bool is_reserved(std::string_view label) {
          });
 }
 
-/// The keys of a method but those of every method.
+/// The keys of a method, without those that every method has.
 std::vector<std::string_view> own_keys(const MethodDescription& method) {
   std::vector<std::string_view> keys;
   for (const MethodSetting& setting : method.settings) keys.push_back(setting.key);
@@ -79,8 +80,8 @@ SceneKey key_of(const MethodSetting& setting) {
   return std::visit(describe, setting.member);
 }
 
-/// The keys of all methods, each once: those that distinguish methods first, then the others, then
-/// how long the steps are.
+/// The keys of all methods, each once: first the keys that distinguish methods, then the others,
+/// then those of the step size.
 TableDescription describe_integrators() {
   TableDescription table{
       {{"label",
@@ -116,8 +117,8 @@ TableDescription describe_integrators() {
          "a larger scaled defect is exit code 1"}}})};
 }
 
-/// A label becomes the name of a directory, so that it must neither lead out of the output
-/// directory nor need quotes in a shell.
+/// A label becomes the name of a directory. It must therefore not lead out of the output directory,
+/// nor need quotes in a shell.
 std::string read_label(const TableReader& integrator) {
   const std::string label = integrator.text("label");
   const auto allowed = [](char c) {
@@ -144,7 +145,8 @@ double read_step(const TableReader& integrator, std::string_view key, double dur
                                      "be within binary64 there",
                                      integrator.found(key), step));
   }
-  // The span is in the unit of the key, so that the user can copy a step that is named.
+  // The span is in the unit of the key, so that the user can copy the step that the message
+  // suggests.
   const double span = std::abs(duration) * (given / step);
   const double smallest_step = span * 0x1p-52;
   if (given < smallest_step) {
@@ -195,14 +197,15 @@ void read_setting(const TableReader& integrator, const MethodSetting& setting,
   std::visit([&](auto member) { settings.*member = read(member); }, setting.member);
 }
 
-/// The key that says how long the steps are.
+/// The key that gives the step size.
 std::string_view read_size_key(const TableReader& integrator, const MethodDescription& method) {
   if (!method.has_fixed_steps) return "tolerance";
   if (!method.has_tolerance) return integrator.exactly_one_of({"step_canonical", "step_s"});
   return integrator.exactly_one_of({"step_canonical", "step_s", "tolerance"});
 }
 
-/// Whoever asks for one of these knows it from the paper and deserves to know why it is no choice.
+/// Whoever asks for one of these methods knows it from the paper, and should read why it cannot be
+/// used here.
 void refuse_energy_conserving(const TableReader& integrator) {
   const std::string method = integrator.text_if_any("method").value_or("");
   if (method != "energy-conserving-stormer" && method != "energy-conserving-midpoint") return;
@@ -212,7 +215,7 @@ void refuse_energy_conserving(const TableReader& integrator) {
                               in_quotes(method), listed(method_names()), no_energy_conserving_jet));
 }
 
-/// As comparisons name the series of the method in this form.
+/// The label is the name that comparisons give to the series of the method in this form.
 std::string default_label(const IntegratorSettings& settings) {
   ComparisonSettings wanted;
   wanted.stages = {settings.stages};
@@ -225,7 +228,7 @@ std::string default_label(const IntegratorSettings& settings) {
   return std::string(method.name);
 }
 
-/// Labels for the integrators that have none, numbered where there is one of the name already.
+/// Adds labels to the integrators that have none, with a number if the name is already in use.
 void add_labels(std::vector<IntegratorSettings>& integrators) {
   std::set<std::string> labels;
   for (const IntegratorSettings& settings : integrators) labels.insert(settings.label);
@@ -241,7 +244,7 @@ void add_labels(std::vector<IntegratorSettings>& integrators) {
 
 IntegratorSettings read_integrator(const TableReader& integrator, Precision precision,
                                    double duration, const Nominal& nominal) {
-  if (!integrator.has("method")) integrator.check_keys();  // a misspelt `method` is named
+  if (!integrator.has("method")) integrator.check_keys();  // a misspelt `method` is reported first
   refuse_energy_conserving(integrator);
   IntegratorSettings settings;
   settings.method = static_cast<IntegrationMethod>(integrator.choice("method"));
@@ -312,7 +315,7 @@ std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>&
                     integrators[most_integrators].head(""), integrators.size(), most_integrators));
   }
   std::vector<IntegratorSettings> all_settings;
-  std::map<std::string, std::string> places;  // of the labels so far
+  std::map<std::string, std::string> places;  // places of the labels so far
   for (const TableReader& integrator : integrators) {
     integrator.attempt([&] {
       const IntegratorSettings settings = read_integrator(integrator, precision, duration, nominal);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int64_t most_arcs = 1000;
 
-/// C(variables + order, order), the number of monomials up to the order. Exact below 2^53; beyond,
-/// only its size matters.
+/// C(variables + order, order), the number of monomials up to the order. It is exact below 2^53;
+/// beyond that only its magnitude matters.
 double number_of_coefficients(std::size_t variables, std::int64_t order) {
   double count = 1;
   for (std::size_t k = 1; k <= variables; ++k) {
@@ -47,8 +47,8 @@ std::string with_unit(double bytes) {
 
 int read_order(const TableReader& jet, std::size_t variables, Precision precision) {
   if (!jet.has("order")) return JetSettings().order;
-  // An order below 1 is a mistake of the scene. One that is too high is not: it asks for more than
-  // a machine holds.
+  // An order below 1 is a mistake in the scene. A very high order is not: it asks for more than a
+  // machine can hold.
   const std::optional<std::int64_t> asked = jet.integer_if_any("order");
   if (asked && *asked > largest_order) throw_order_too_large(jet, *asked, variables, precision);
   return static_cast<int>(jet.integer("order"));

@@ -13,26 +13,26 @@
 namespace hamjet::io {
 namespace {
 
-/// A start, or a semi-major axis, this many radii from a centre is beyond the reach of its gravity
-/// (Jupiter's sphere of influence is 743 of its radii, the Earth's 235), and in metres it would be
-/// above the surface: 1000 radii, less the flattening.
+/// A start, or a semi-major axis, that is farther than this from the centre, in radii, is beyond
+/// the reach of its gravity (Jupiter's sphere of influence is 743 of its radii, the Earth's 235). A
+/// start in km that was meant in metres is above it too: 1000 radii, less the flattening.
 constexpr double farthest_start = 950;
 
-/// No body that orbits are flown about is as prolate: J2 of planets and moons is positive.
+/// No body about which orbits are flown is as prolate: J2 of planets and moons is positive.
 constexpr double least_J2 = -1e-5;
 
-/// Saturn is the most oblate of them, with a J2 of 0.0163.
+/// Saturn is the most oblate of these bodies, with a J2 of 0.0163.
 constexpr double greatest_J2 = 0.02;
 
-/// A speed in m/s is a thousand times that in km/s, and on an orbit at least 707 times that of
-/// escape; no comet passes the Sun at a tenth of this.
+/// A speed in m/s is a thousand times the number in km/s, and on an orbit at least 707 times the
+/// speed of escape. No comet passes the Sun at a tenth of the speed allowed here.
 constexpr double greatest_speed_of_escape = 100;
 
-/// A gravitational parameter this far from that of the body whose radius is given is no other
-/// model of it.
+/// If the gravitational parameter differs by more than this fraction from that of the body whose
+/// radius is given, it is not just another model of that body.
 constexpr double other_mu = 0.1;
 
-/// A radius that the J_n refer to is the equator's, up to a choice of the model.
+/// The reference radius of the J_n is that of the equator, up to this difference between models.
 constexpr double radius_tolerance = 0.05;
 
 const CelestialBody* body_with_radius(double radius_km) {
@@ -99,7 +99,7 @@ class LikelySlips {
     }
   }
 
-  /// The radius of a body beside a mu that no body has.
+  /// Warns if the radius is that of a known body and mu is that of none.
   void check_mu_beside_radius() {
     if (body_ != nullptr || !system_.has("radius_km") || !system_.has("mu_km3_s2")) return;
     const CelestialBody* const body = body_with_radius(scene_.system.radius_km);
@@ -126,7 +126,7 @@ class LikelySlips {
     }
   }
 
-  /// The key that says where the nominal starts, or how large its orbit is.
+  /// The key that gives the start of the nominal, or the size of its orbit.
   std::string_view start_key() const {
     static const auto keys = joined<std::string_view>({size_keys(), {"position_km", "oem_file"}});
     const auto found = std::find_if(keys.begin(), keys.end(),
@@ -134,7 +134,7 @@ class LikelySlips {
     return found != keys.end() ? *found : "opm_file";
   }
 
-  /// The key's own number where it is a length; of a period nothing is a slip of units.
+  /// The number of the key itself, if it is a length; a period does not show a mistaken unit.
   std::optional<double> start_length_km(std::string_view key) const {
     const std::vector<double>& q = scene_.nominal;
     const bool is_length = key.ends_with("_km") && key != "position_km";
@@ -145,7 +145,8 @@ class LikelySlips {
 
   void check_distance() {
     const double radius = body_ != nullptr ? body_->equator_radius_km : scene_.system.radius_km;
-    const bool is_sun = body_ != nullptr && body_->name == "SUN";  // planets are beyond this
+    const bool is_sun =
+        body_ != nullptr && body_->name == "SUN";  // planets are farther away than this
     if (radius == 0) return;
     const std::string_view key = start_key();
     const auto length = start_length_km(key);
@@ -167,7 +168,7 @@ class LikelySlips {
 
   void check_speed() {
     if (!nominal_.has("velocity_km_s")) return;
-    const std::vector<double>& x = scene_.nominal;  // canonical, where mu is 1
+    const std::vector<double>& x = scene_.nominal;  // canonical units, in which mu is 1
     const double speed = std::hypot(x[3], x[4], x[5]);
     const double escapes = speed / std::sqrt(2 / std::hypot(x[0], x[1], x[2]));
     if (!(escapes >= greatest_speed_of_escape)) return;
@@ -179,7 +180,7 @@ class LikelySlips {
             speed_km_s, escapes, 1e-3 * speed_km_s));
   }
 
-  /// A file's own centre has been compared with the scene's.
+  /// The centre that a file names has already been compared with the scene's.
   void check_centre() {
     if (body_ == nullptr || scene_.nominal_file || !root_.has("ephemeris")) return;
     const TableReader ephemeris = root_.table("ephemeris");
@@ -191,7 +192,7 @@ class LikelySlips {
                     in_quotes(name), body_->name));
   }
 
-  /// A small offset that the scene does not mention.
+  /// Notes a small offset of the origin, which the scene does not mention.
   void check_origin() {
     const auto& file = scene_.system.gravity_file;
     if (!file || file->origin_offset_m == 0.0 || system_.has("leave_out_C10")) return;
@@ -205,7 +206,7 @@ class LikelySlips {
   TableReader system_;
   TableReader nominal_;
   const Scene& scene_;
-  const CelestialBody* body_ = nullptr;  ///< whose mu the scene has, perhaps in other units
+  const CelestialBody* body_ = nullptr;  ///< body whose mu the scene has, perhaps in other units
   std::vector<std::string> found_;
 };
 

@@ -7,11 +7,11 @@ namespace hamjet::io {
 /// The file name of a scene that is read from standard input.
 inline constexpr const char* standard_input_name = "<standard input>";
 
-/// The stem of the file's name, made fit for the name of a directory; "standard-input" for
-/// the name above.
+/// The name of a scene: the stem of its file's name, made fit for the name of a directory;
+/// "standard-input" for the name above.
 std::string scene_name(const std::string& file_name);
 
-/// The title of a scene that says none: the stem of its file's name, as it can be printed.
+/// The title of a scene without a title: the printable stem of its file's name.
 std::string default_title(const std::string& file_name);
 
 }  // namespace hamjet::io

@@ -12,9 +12,9 @@
 namespace hamjet::io {
 namespace {
 
-/// Largest distance of the nominal in units that the scene chooses, and largest inverse of it.
-/// Coefficients of degree d go as the distance to the power -(d + 2), and must not underflow to a
-/// wrong zero.
+/// Largest distance of the nominal in the units that the scene chooses, and largest inverse of the
+/// distance. Coefficients of degree d scale as the distance to the power -(d + 2), and must not
+/// underflow to zero.
 constexpr double greatest_distance = 1e9;
 
 double rounded(const Extended& value) { return convert<double>(value); }

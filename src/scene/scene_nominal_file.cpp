@@ -18,18 +18,18 @@
 namespace hamjet::io {
 namespace {
 
-/// The state that is taken from a message, and what the message says of it.
+/// The state that is taken from a message, and the metadata of this state.
 struct ChosenState {
   OrbitMetadata metadata;
   OrbitState state;
 };
 
-/// What the file of an orbit message says, before it is compared with the scene.
+/// The content of an orbit message, before it is compared with the scene.
 struct MessageOfFile {
   ChosenState chosen;
   std::string format;
   std::vector<std::string> unused;
-  std::optional<OrbitParameterMessage> parameters;  ///< of an OPM
+  std::optional<OrbitParameterMessage> parameters;  ///< content of an OPM
 };
 
 std::optional<Epoch> wanted_epoch(const TableReader& nominal) {
@@ -41,8 +41,8 @@ bool is_of(const EphemerisSegment& segment, const std::string& object) {
   return segment.metadata.object_name == object || segment.metadata.object_id == object;
 }
 
-/// The objects of these blocks, each once: by their names, or by their identifiers where several
-/// have one name.
+/// The distinct objects of these blocks: by their names, or by their identifiers where several
+/// objects share a name.
 std::vector<std::string> objects_of(const std::vector<EphemerisSegment>& segments) {
   std::vector<std::string> names;
   std::vector<std::string> identifiers;
@@ -60,7 +60,7 @@ std::string listed_objects(const std::vector<std::string>& objects) {
   return printable(listed({objects.begin(), objects.end()}));
 }
 
-/// The blocks of the object that the scene names, or of the only one there is.
+/// The blocks of the object that the scene names or, without a name, of the only object.
 std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
                                               std::vector<EphemerisSegment> segments) {
   const std::vector<std::string> objects = objects_of(segments);
@@ -85,8 +85,8 @@ std::vector<EphemerisSegment> wanted_segments(const TableReader& nominal,
   return segments;
 }
 
-/// The state of the wanted epoch, or the first one; only among those that are not there for
-/// interpolation alone.
+/// The state at the wanted epoch or, without one, the first state; states that serve for
+/// interpolation only are not considered.
 ChosenState choose_state(const TableReader& nominal, const std::vector<EphemerisSegment>& segments,
                          const std::optional<Epoch>& wanted) {
   std::vector<ChosenState> found;
@@ -129,7 +129,7 @@ ChosenState choose_state(const TableReader& nominal, const std::vector<Ephemeris
   return found[0];
 }
 
-/// Refuses a message about another centre than the scene's. `file` is its name, printable.
+/// Refuses a message whose centre is not that of the scene. `file` is the file's printable name.
 void require_same_centre(const TableReader& nominal, std::string_view key,
                          const SceneCentre& centre, const OrbitMetadata& metadata,
                          const std::string& file) {
@@ -165,7 +165,7 @@ void require_same_centre(const TableReader& nominal, std::string_view key,
   }
 }
 
-/// Refuses an OPM that names another mu than the scene's.
+/// Refuses an OPM whose mu is not that of the scene.
 void require_same_mu(const TableReader& nominal, std::string_view key, double mu,
                      const OrbitParameterMessage& message, const std::string& file) {
   if (!message.gm_km3_s2 || std::abs(*message.gm_km3_s2 / mu - 1) <= gm_tolerance) return;
@@ -174,7 +174,8 @@ void require_same_mu(const TableReader& nominal, std::string_view key, double mu
                                 *message.gm_km3_s2, file, message.gm_line, mu, gm_tolerance));
 }
 
-/// The place that a message's elements give, from the true anomaly; none where they are no ellipse.
+/// The state that the elements of a message give, from the true anomaly; no value where they do not
+/// describe an ellipse.
 std::optional<CartesianState> state_of(const OrbitElements& elements, double mu) {
   if (!(elements.semi_major_axis_km > 0) || !(elements.eccentricity >= 0) ||
       !(elements.eccentricity < 1)) {
@@ -192,9 +193,9 @@ std::optional<CartesianState> state_of(const OrbitElements& elements, double mu)
       mu);
 }
 
-/// Elements that are not those of the state, which is used: one of the two is wrong. They agree
-/// where the places are within a thousandth of the distance, as those of elements with four digits
-/// are.
+/// Warns if a message's elements do not belong to its state, which is used: one of the two is
+/// wrong. They agree if the positions are within a thousandth of the distance, as for elements
+/// rounded to four digits.
 void warn_of_contradictory_elements(const TableReader& nominal, std::string_view key, double mu,
                                     const OrbitParameterMessage& message, const std::string& file) {
   constexpr double agreement = 1e-3;
@@ -214,7 +215,7 @@ void warn_of_contradictory_elements(const TableReader& nominal, std::string_view
          place)
             .norm();
   }
-  // The energies differ by this part of that of a circle through the place.
+  // The difference of the energies, as a fraction of that of the circle through the position.
   const double of_size = std::abs(distance / a - distance / elements.semi_major_axis_km);
   const bool is_other_conic = !other && a > 0;
   if (!is_other_conic && between <= agreement * distance && of_size <= agreement) return;
@@ -243,7 +244,7 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
   return settings;
 }
 
-/// Reads `key`, oem_file or opm_file, and takes from the message what the other keys choose.
+/// Reads `key`, oem_file or opm_file, and takes from the message what the other keys select.
 MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
   const std::string file = printable_path(nominal.path_beside_scene(key));
   const std::string text = nominal.content_beside_scene(key, largest_orbit_message_bytes);

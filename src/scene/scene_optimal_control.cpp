@@ -10,7 +10,8 @@
 namespace hamjet::io {
 namespace {
 
-/// Far above the steps that a study may take: the study itself refuses too many.
+/// This limit is far above the number of steps that a study allows; the study itself refuses too
+/// many.
 constexpr std::int64_t most_steps = 1'000'000'000;
 
 /// The components that `free_end` leaves free.
@@ -82,7 +83,8 @@ const TableDescription& optimal_control_table() {
   static const TableDescription table = {
       {{"problem", form::choice(control_model_names()), absent::refused(), "which one"},
        {"method", form::choice(discretization_names()), absent::refused(), "the discretisation"},
-       // Costs go as its inverse third power: binary64 must hold them.
+       // Costs are proportional to the inverse third power of the duration, and binary64 must hold
+       // them.
        {"duration", form::between(1e-30, 1e30), absent::refused(), "without unit"},
        {"steps", form::integer(1, most_steps), absent::refused(), "equal ones"},
        {"refinements", form::array(form::integer(1, most_steps)), absent::other("none"),

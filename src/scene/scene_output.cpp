@@ -14,7 +14,7 @@ std::vector<std::string_view> format_names() {
   std::vector<std::string_view> names;
   for (const OutputFormat* format : output_formats()) {
     if (format->name.empty()) continue;
-    // Formats of one name are asked for together.
+    // Formats of the same name are requested together.
     if (std::find(names.begin(), names.end(), format->name) == names.end()) {
       names.push_back(format->name);
     }
@@ -22,7 +22,7 @@ std::vector<std::string_view> format_names() {
   return names;
 }
 
-/// What each format is called among the results.
+/// The file names of each format among the results.
 std::string file_names() {
   std::string names;
   for (const OutputFormat* format : output_formats()) {

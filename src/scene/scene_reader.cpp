@@ -11,7 +11,8 @@
 namespace hamjet::io {
 namespace {
 
-/// Refuses a format that dates an orbit where nothing does, or where the calendar ends.
+/// Refuses a format with dates if the scene has no date for the orbit, or if the motion leaves the
+/// calendar.
 void require_dates(const TableReader& root, const Scene& scene) {
   const auto wanted = wanted_formats(scene);
   const auto dated = std::find_if(wanted.begin(), wanted.end(),
@@ -24,7 +25,7 @@ void require_dates(const TableReader& root, const Scene& scene) {
                     "epoch, time_system, reference_frame and center_name",
                     (*dated)->name));
   }
-  // The key that says when the nominal starts.
+  // The key that gives the epoch of the nominal's start.
   const TableReader nominal = root.table("nominal");
   if (root.has("ephemeris") && root.table("ephemeris").has("epoch")) {
     require_calendar(root.table("ephemeris"), "epoch", scene);
@@ -35,7 +36,7 @@ void require_dates(const TableReader& root, const Scene& scene) {
   }
 }
 
-/// Refuses an integrator that cannot be split where the scene asks for a number of arcs.
+/// Refuses an integrator that cannot be split into arcs if the scene asks for a number of arcs.
 void require_splittable(const TableReader& jet, const Scene& scene) {
   if (scene.arcs.value_or(1) == 1) return;
   for (const IntegratorSettings& settings : scene.integrators) {
@@ -53,7 +54,7 @@ void require_splittable(const TableReader& jet, const Scene& scene) {
 Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   Scene scene;
   const bool has_precision = root.attempt([&] { root.read_if_any("precision", scene.precision); });
-  // A table that may be left out; an error of it leaves the others to be read.
+  // Reads a table that may be left out; an error in it does not prevent the others from being read.
   const auto read_table = [&](std::string_view key, const auto& read) {
     return !root.has(key) || root.attempt([&] { read(root.table(key)); });
   };
@@ -118,7 +119,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
              [&](const auto&) { scene.uncertainty = read_uncertainty(root, scene, nominal); });
   const bool has_transfer = root.attempt([&] {
     if (!root.has("transfer")) return;
-    // An assignment gives the ends itself.
+    // An assignment has ends of its own.
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;

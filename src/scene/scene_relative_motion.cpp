@@ -15,7 +15,7 @@
 namespace hamjet::io {
 namespace {
 
-/// A time as the key gives it, in canonical units.
+/// The time that the key gives, in canonical units.
 double canonical_time(const TableReader& table, std::string_view key, double given,
                       const Nominal& nominal) {
   if (key.ends_with("_s")) return nominal.scale.time_of_s(given);
@@ -114,7 +114,7 @@ bool has_times(const TableReader& table) {
                      [&](std::string_view key) { return table.has(key); });
 }
 
-/// The times of the one key that is there, with what is wrong with a time of 0.
+/// The times of the only key that is present; a time of 0 is refused with this reason.
 std::vector<double> read_times(const TableReader& table, const Scene& scene, const Nominal& nominal,
                                std::string_view of_zero) {
   const std::string_view key = table.exactly_one_of(time_keys());
@@ -181,7 +181,7 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
   }
   std::vector<double> times = read_times(
       jet, scene, nominal, "zero, got 0, must not be 0: at the start every jet is the identity");
-  // A time that is the duration but for the rounding of its unit is that of the run's own jet.
+  // A time that equals the duration, up to the rounding of its unit, is that of the run's own jet.
   constexpr double rounding = 1e-12;
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double part = times[i] / scene.duration;
@@ -197,7 +197,8 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
 
 namespace {
 
-/// Refuses what is no frame here: the name of other axes, and of a form that has keys of its own.
+/// Refuses a name that is not a frame here: that of other axes, or of a form that has keys of its
+/// own.
 void refuse_other_frames(const TableReader& table) {
   const std::string given = table.text_if_any("frame").value_or("");
   if (lower_case(given) == "lvlh") {
@@ -227,7 +228,8 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
   const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
   if (of_frame.has("frame")) refuse_other_frames(of_frame);
   const bool is_inertial = of_frame.has("frame") && of_frame.choice("frame") == 1;
-  // What the other table says of its own frame is nothing for a frame that takes none.
+  // The derivatives that the other table states for its own frame mean nothing for a frame that has
+  // none.
   if (is_inertial && table.has("frame") && !table.has("derivatives")) {
     return RelativeFrame::inertial;
   }
@@ -253,7 +255,7 @@ bool has_collision(const TableReader& root) {
   try {
     return root.table("uncertainty").has("collision");
   } catch (const Error&) {
-    return false;  // what is no table is told where it is read
+    return false;  // a value that is not a table is reported where it is read
   }
 }
 

@@ -21,8 +21,8 @@
 namespace hamjet::io {
 namespace {
 
-/// A deputy as far from its chief as the centre of attraction is, or as fast as the orbit itself,
-/// is beyond every expansion.
+/// Reads a vector. A deputy as far from its chief as the centre of attraction, or as fast as the
+/// orbit itself, is beyond every expansion.
 Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, double limit,
                             std::string_view what) {
   const std::vector<double> numbers = table.numbers(key, 3);
@@ -41,10 +41,10 @@ MetricUnits metric_units(const Nominal& nominal) {
 
 double distance_of(const Nominal& nominal) { return Eigen::Vector3d(nominal.state.data()).norm(); }
 
-/// Of a circular orbit through the chief, canonical: mu = 1.
+/// The speed of the circular orbit through the chief, in canonical units, where mu = 1.
 double circular_speed_of(const Nominal& nominal) { return 1 / std::sqrt(distance_of(nominal)); }
 
-/// The axes at the chief; says about the table why there are none.
+/// The axes at the chief. If there are none, the error refers to the table.
 ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, RelativeFrame frame) {
   try {
     return {nominal.state, metric_units(nominal), frame};
@@ -55,8 +55,9 @@ ChiefFrame frame_at_chief(const TableReader& table, const Nominal& nominal, Rela
   }
 }
 
-/// Refuses a message whose state is not of the chief's moment, is in other axes, or is about
-/// another centre, which a scene with the mu of no known body cannot tell otherwise.
+/// Refuses a message whose state is not at the chief's moment, is in other axes, or is about
+/// another centre. If the scene's mu is that of no known body, only the names of the centres can be
+/// compared.
 void require_same_date(const TableReader& table, const Nominal& nominal,
                        const EphemerisSettings& message) {
   const std::string_view file = table.exactly_one_of({"oem_file", "opm_file"});
@@ -108,8 +109,8 @@ void require_near(const TableReader& table, const Nominal& nominal,
   }
 }
 
-/// The relative state of a deputy that is given by its own orbit: the difference of the two
-/// inertial states, neither of which has been rounded before.
+/// The relative state of a deputy that is given by its own orbit: the difference of two inertial
+/// states, both before any rounding.
 RelativeState read_own_orbit(const TableReader& table, const Nominal& nominal, RelativeFrame frame,
                              DeputyPlace place) {
   if (table.has("position_km") && !table.has("velocity_km_s")) {
@@ -143,7 +144,7 @@ std::optional<std::string_view> key_of_form(const TableReader& table, DeputyForm
   return std::nullopt;
 }
 
-/// Its six numbers; those left out are 0.
+/// The six numbers of the form; those left out are 0.
 std::array<double, 6> numbers_of_form(const TableReader& table, DeputyForm form) {
   std::array<double, 6> numbers{};
   for (std::size_t i = 0; i < 6; ++i) {
@@ -160,7 +161,7 @@ RelativeState read_in_form(const TableReader& table, const Nominal& nominal, Rel
   const std::string_view first = *key_of_form(table, form);
   std::array<double, 6> deviation{};
   try {
-    // In canonical units of an orbit mu is 1.
+    // In the canonical units of an orbit mu is 1.
     deviation = DeputyCoordinates(nominal.state, metric_units(nominal), 1, form).deviation(numbers);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
@@ -191,7 +192,7 @@ RelativeState read_along_axes(const TableReader& table, const Nominal& nominal,
   return state;
 }
 
-/// How a table gives a deputy; none of both: along the axes of the frame.
+/// How a table gives a deputy. If both members are absent, it is given along the axes of the frame.
 struct GivenForm {
   std::optional<DeputyForm> form;
   bool is_own_orbit = false;
@@ -255,7 +256,7 @@ std::vector<SceneKey> relative_state_keys() {
 
 std::vector<SceneKey> arrival_keys() {
   std::vector<SceneKey> keys = relative_state_keys();
-  // Messages are of a moment, and arrivals of as many as there are transfer times.
+  // A message is for one moment, but an arrival for as many moments as there are transfer times.
   std::erase_if(keys, [](const SceneKey& key) {
     return key.name == "opm_file" || key.name == "oem_file" || key.name == "epoch" ||
            key.name == "object";

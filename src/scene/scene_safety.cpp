@@ -9,7 +9,7 @@ namespace {
 
 constexpr int fewest_path_samples = 100;
 constexpr int most_path_samples = 10000000;
-/// With more of them the pairs take minutes.
+/// With more deputies the pairs would take minutes.
 constexpr std::size_t most_safe_deputies = 20;
 
 const TableDescription& safe_deputy_table() {

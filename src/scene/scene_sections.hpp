@@ -14,23 +14,23 @@
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
 
-// One function for each table of a scene, in the order in which they are read: a later one may need
-// what an earlier one found. Each reads, checks and converts all keys of its table, in a file of
-// its own, scene_<table>.cpp (tables of one key in scene_reader.cpp). All throw Error(scene), or
-// Error(too_large) where said.
+// One function for each table of a scene, in the order in which the tables are read: a later table
+// may need the results of an earlier one. Each function reads, checks and converts all keys of its
+// table, in a file of its own, scene_<table>.cpp (for tables of one key in scene_reader.cpp). All
+// throw Error(scene), and Error(too_large) where their comment says so.
 
 namespace hamjet::io {
 
 inline constexpr std::int64_t largest_order = 20;
 
-/// Most integrators of a scene: their jets are all held until the end.
+/// The largest number of integrators of a scene; all their jets are held until the end.
 inline constexpr std::size_t most_integrators = 1000;
 
 /// The range of tolerances in double precision.
 inline constexpr double least_tolerance = 1e-15;
 inline constexpr double greatest_tolerance = 1e-1;
 
-/// check_keys of a table some of whose keys belong to orbits, or to the other models.
+/// check_keys for a table with keys that belong to orbits only, or to the other models only.
 inline void check_keys_of_model(const TableReader& table, SystemModel model) {
   table.check_keys(is_orbit(model) ? orbits : other_models,
                    "the model " + std::string(model_name(model)));
@@ -47,15 +47,15 @@ Study read_optimal_control(const TableReader& root);
 /// The keys that a table `[[integrator]]` may have for a method.
 std::vector<std::string_view> integrator_keys(IntegrationMethod method);
 
-/// Table `[system]`; `root` is the whole scene, of which a gravity field that varies with time
-/// needs the epoch.
+/// Table `[system]`. `root` is the whole scene: a gravity field that varies with time needs its
+/// epoch.
 SystemSettings read_system(const TableReader& root);
 
-/// The moment at which a scene's nominal starts, by its table `[ephemeris]` or the orbit message
-/// that it is read from; none if neither is there.
+/// The moment at which the nominal of a scene starts, from the table `[ephemeris]` or from the
+/// orbit message that the nominal is read from; no value if there is neither.
 std::optional<Epoch> epoch_of_start(const TableReader& root);
 
-/// Canonical units before they are rounded: SI value = canonical value times these.
+/// Canonical units before they are rounded: the SI value is the canonical value times these.
 struct CanonicalScale {
   Extended length_km;
   Extended time_s;
@@ -65,35 +65,36 @@ struct CanonicalScale {
   double time_of_s(double seconds) const;
 };
 
-/// What the table `[nominal]` holds.
+/// The content of the table `[nominal]`.
 struct Nominal {
-  CanonicalScale scale;              ///< of all canonical numbers of the scene
-  CanonicalScale told;               ///< of those that the user gives and is told
-  std::vector<double> state;         ///< (q, p), canonical, 2n numbers
-  std::optional<Extended> period_s;  ///< of the osculating Kepler ellipse, if there is one
-  std::optional<NominalFile> file;   ///< the file that it was read from
-  /// Of an orbit, what deputies given by their own orbits are compared with: the state before it is
-  /// rounded, its centre, and what dates it.
+  CanonicalScale scale;       ///< units of all canonical numbers of the scene
+  CanonicalScale told;        ///< units of the canonical numbers that the user gives and reads
+  std::vector<double> state;  ///< (q, p), canonical, 2n numbers
+  /// Period of the osculating Kepler ellipse, if the orbit is one.
+  std::optional<Extended> period_s;
+  std::optional<NominalFile> file;  ///< file from which it was read
+  /// For an orbit, the data with which deputies' own orbits are compared: the state before it is
+  /// rounded, its centre, and its date.
   std::optional<CartesianState> orbit;
   SceneCentre centre;
   std::optional<EphemerisSettings> ephemeris;
 
-  /// A time of a key `_canonical` in the scene's own canonical units, rounded once; in the same
-  /// units it stays as it is.
+  /// Converts a time of a key `_canonical` to the scene's own canonical units, rounded once; it
+  /// stays as it is if the units are the same.
   double time_of_canonical(double given) const;
-  /// The other way.
+  /// Converts a time to the units in which the user reads it.
   double told_time(double time) const;
 };
 
 /// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
-/// is no orbit, whose units are fixed.
+/// is not an orbit, whose units are fixed.
 double read_unit_of_length(const TableReader& units, SystemModel model);
 
-/// Table `[nominal]`. For an orbit the unit of length is `length_km`, or without it the distance
-/// from the centre, and the unit of time sqrt(length^3 / mu), so that mu = 1 and a momentum (per
-/// unit of mass) is a velocity over sqrt(mu / length); with SceneUnits::chiefs it is the distance
-/// in any case. For the other models metre, second and kilogram stay. `center_name` is what the
-/// table `[ephemeris]` says, see read_nominal_file.
+/// Table `[nominal]`. For an orbit the unit of length is `length_km` or, without this key or with
+/// SceneUnits::chiefs, the distance from the centre. The unit of time is sqrt(length^3 / mu), so
+/// that mu = 1 and a momentum (per unit of mass) is a velocity divided by sqrt(mu / length). For
+/// the other models the units remain metre, second and kilogram. `center_name` is the centre that
+/// the table `[ephemeris]` names, see read_nominal_file.
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<double>& length_km, SceneUnits units,
                      const std::optional<std::string>& center_name);
@@ -126,16 +127,16 @@ Nominal read_start(const TableReader& root, ModelScene& scene,
   return nominal;
 }
 
-/// The only one of `duration_s`, `duration_canonical` and, for orbits, `duration_orbits`; in
-/// canonical units.
+/// A duration, given by exactly one of `duration_s`, `duration_canonical` and, for orbits,
+/// `duration_orbits`; in canonical units.
 double read_duration(const TableReader& table, bool has_orbits, const Nominal& nominal);
 
-/// What the table `[jet]` holds.
+/// The content of the table `[jet]`.
 struct JetSettings {
   int order = 4;
   std::vector<std::size_t> variables;   ///< indices into (q, p), ascending
-  double duration = 0;                  ///< canonical
-  std::optional<std::size_t> arcs = 1;  ///< none: auto
+  double duration = 0;                  ///< in canonical units
+  std::optional<std::size_t> arcs = 1;  ///< no value for "auto"
   FlowSymmetry symmetry = FlowSymmetry::rotation;
   CoordinatesAtEnds coordinates;
 };
@@ -144,80 +145,82 @@ struct JetSettings {
 JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal);
 
-/// The integrator of a scene without tables `[[integrator]]`, for people.
+/// The description, for people, of the integrator of a scene without tables `[[integrator]]`.
 inline constexpr std::string_view default_integrator_text = "Gauss, 8 stages, tolerance 1e-12";
 
-/// That integrator: an orbit is expanded to about the tolerance, at every degree.
+/// The integrator of such a scene: an orbit is expanded to about the tolerance, at every degree.
 IntegratorSettings default_integrator();
 
-/// The same as a table `[[integrator]]`, in TOML.
+/// This integrator as a table `[[integrator]]`, in TOML.
 const std::string& default_integrator_table();
 
-/// The tables `[[integrator]]`, those without a label named as comparisons name their series.
+/// The tables `[[integrator]]`; a table without a label is named as comparisons name its series.
 /// Throws Error(too_large) for too many steps.
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,
                                                  Precision precision, double duration,
                                                  const Nominal& nominal);
 
-/// Table `[formation]`: the separation in canonical units.
+/// Table `[formation]`: the separation, in canonical units.
 double read_formation(const TableReader& formation, SystemModel model, const CanonicalScale& scale);
 
-/// Table `[generating_function]`: the kinds as the scene names them, checked against what `scene`
-/// already holds.
+/// Table `[generating_function]`: the kinds as the scene names them, checked against the parts of
+/// `scene` that have been read.
 std::vector<std::string> read_generating_function(const TableReader& generating_function,
                                                   const Scene& scene);
 
-/// The degrees of freedom of the kinds that a scene's jet has; `table` and `key` ask for one.
-/// Throws Error(scene) if the jet is not expanded in all variables of phase space.
+/// The degrees of freedom of the kinds of generating functions for a scene's jet; `table` and `key`
+/// ask for such a kind. Throws Error(scene) if the jet is not expanded in all variables of phase
+/// space.
 std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
                                         const Scene& scene);
 
-/// Final and initial choice in letters: "qqq-ppp" for "F2", and so on; "auto" stays, and what is no
-/// kind gives an empty text.
+/// The explicit name of a kind, with final and initial choice in letters: "qqq-ppp" for "F2" and so
+/// on. "auto" stays; a text that is not a kind gives an empty text.
 std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedom);
 
 /// Table `[reference]`.
 ReferenceSettings read_reference(const TableReader& reference);
 
-/// Table `[compare]`, checked against what `scene` already holds.
+/// Table `[compare]`, checked against the parts of `scene` that have been read.
 ComparisonSettings read_compare(const TableReader& table, const Scene& scene,
                                 const Nominal& nominal);
 
-/// Table `[checks]`, checked against what `scene` already holds.
+/// Table `[checks]`, checked against the parts of `scene` that have been read.
 SelfCheckSettings read_checks(const TableReader& checks, const Scene& scene);
 
 /// Table `[output]`: the formats besides CSV and JSON.
 OutputSettings read_output(const TableReader& output, SystemModel model);
 
-/// Required: a key of any table that is a moment of the calendar. Its form in declarations.
+/// Reads a required key of any table whose value is a moment of the calendar; and the declared form
+/// of such a key.
 Epoch read_epoch(const TableReader& table, std::string_view key);
 ValueForm form_of_epoch();
 
-/// Table `[ephemeris]`. What the nominal's file says of time, frame and centre need not be said
-/// again, and cannot be changed. A body named in the scene must be the centre of its system.
+/// Table `[ephemeris]`. What the nominal's file says about time, frame and centre may be repeated
+/// here, but not changed. A body that the scene names must be the centre of its system.
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
                                  const std::optional<NominalFile>& file,
                                  const SystemSettings& system);
 
-/// Throws, about the key that says when the nominal starts, if the moments of the scene cannot be
-/// dated by adding seconds: before or across leap seconds of UTC, or outside of the years 1 to
+/// Throws an error about the key that gives the nominal's start if the moments of the scene cannot
+/// be dated by adding seconds: before or across leap seconds of UTC, or outside the years 1 to
 /// 9999.
 void require_calendar(const TableReader& table, std::string_view key, const Scene& scene);
 
-/// Table `[figure]`, checked against what `scene` already holds.
+/// Table `[figure]`, checked against the parts of `scene` that have been read.
 FigureSettings read_figure(const TableReader& figure, const Scene& scene);
 
-/// Table `[deputy]`, checked against what `scene` already holds.
+/// Table `[deputy]`, checked against the parts of `scene` that have been read.
 DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const Nominal& nominal,
                            bool is_anywhere);
 
-/// Table `[transfer]`, checked against what `scene` already holds. The tables `[transfer.start]`
-/// and `[transfer.end]` may be left out together where `needs_ends` is false, and the start where
-/// the scene has a deputy.
+/// Table `[transfer]`, checked against the parts of `scene` that have been read. If `needs_ends` is
+/// false, the tables `[transfer.start]` and `[transfer.end]` may both be left out. If the scene has
+/// a deputy, the start may be left out.
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends);
 
-/// Table `[validity]`, checked against what `scene` already holds.
+/// Table `[validity]`, checked against the parts of `scene` that have been read.
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
                                const Nominal& nominal);
 
@@ -228,22 +231,22 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
 /// Table `[uncertainty.collision]` of a scene whose table `[deputy]` has been read.
 CollisionWatch read_collision(const TableReader& collision, const Scene& scene);
 
-/// Table `[uncertainty.safety]`, of a scene with a burn or without.
+/// Table `[uncertainty.safety]`, for a scene with or without a burn.
 SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nominal& nominal,
                         bool has_burn);
 
-/// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one; `root` is
-/// the whole scene, of which a covariance from a message needs what the deputy's message says.
+/// Table `[uncertainty]` of a scene whose table `[deputy]` has been read, if it has one. `root` is
+/// the whole scene: a covariance from a message needs the content of the deputy's message.
 UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene,
                                      const Nominal& nominal);
 
-/// Table `[bounded]`, checked against what `scene` already holds.
+/// Table `[bounded]`, checked against the parts of `scene` that have been read.
 BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
 
-/// Table `[event]`, checked against what `scene` already holds.
+/// Table `[event]`, checked against the parts of `scene` that have been read.
 EventSettings read_event(const TableReader& event, const Scene& scene);
 
-/// Why the energy-conserving methods integrate no flow jet, for messages.
+/// The reason why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "
     "each neighbour takes its own steps; it integrates trajectories only";
@@ -251,10 +254,10 @@ inline constexpr std::string_view no_energy_conserving_jet =
 /// All tables of the study "energy-conservation". Throws Error(too_large) for too many steps.
 EnergyConservationStudy read_energy_conservation(const TableReader& root);
 
-/// What about an orbit is almost surely a slip, though it can be computed: a mu in m^3/s^2, a
-/// radius in metres, mu and radius of two bodies, a J2 that no planet has, a start in metres, a
-/// height in place of a semi-major axis, a velocity in m/s. One line each for the user, with place,
-/// key and what would be right.
+/// Warnings of what is almost surely a mistake in a scene about an orbit, though it can be
+/// computed: a mu in m^3/s^2, a radius in metres, mu and radius of two different bodies, a J2 that
+/// no planet has, a start in metres, a height in place of a semi-major axis, a velocity in m/s.
+/// Each is one line for the user, with place, key and what would be right.
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.

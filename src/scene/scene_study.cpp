@@ -77,7 +77,7 @@ TableDescription flow_jet_top() {
         study_key}})};
 }
 
-/// A study of the paper on a model: its own table beside the model's.
+/// A study of the paper on a model: its own table, beside the tables of the model.
 TableDescription paper_top(std::string_view name, const TableDescription& table) {
   return {joined<SceneKey>(
       {head_keys(), start_keys(), {required_table(name, table, "the study"), study_key}})};
@@ -85,14 +85,15 @@ TableDescription paper_top(std::string_view name, const TableDescription& table)
 
 TableDescription energy_conservation_top() {
   TableDescription top = paper_top("energy_conservation", energy_conservation_table());
-  // These are refused with the reason, not as unknown keys.
+  // These tables are refused with a reason, not as unknown keys.
   for (const std::string_view key : {"jet", "integrator"}) {
     top.keys.push_back({key, {}, absent::refused(), {}, {"flow-jet"}});
   }
   return top;
 }
 
-/// Whether tables have the keys of orbits or of other models, where the model is known.
+/// Whether the model is an orbit or another model, as owner of keys; empty if the model is not
+/// known.
 std::vector<std::string_view> kind_of_model(const toml::table& scene) {
   const auto name = scene.at_path("system.model").value<std::string_view>();
   for (const SystemDescription& system : all_systems()) {
@@ -101,8 +102,8 @@ std::vector<std::string_view> kind_of_model(const toml::table& scene) {
   return {};
 }
 
-/// Keeps the errors of a scene whose key `study` is misspelt: which of the tables are right depends
-/// on it, so that only keys that no study has are told.
+/// Keeps the errors of a scene whose key `study` is misspelt. The tables that are right depend on
+/// the study, so that only keys that no study has are reported.
 void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
   const bool is_misspelt = std::any_of(scene.begin(), scene.end(), [](const auto& entry) {
     return nearest(entry.first.str(), {study_key.name}).has_value();
@@ -115,10 +116,10 @@ void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
   root.attempt([&] { root.check_keys({.keys = names}); });
 }
 
-/// The tables of a study whose number in all_studies() is known. The paper's studies are told, and
-/// done, in the units that they ask for.
+/// The tables of a study with a known index in all_studies(). The paper's studies are computed, and
+/// their results given, in the units that the scene asks for.
 Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) {
-  // In the order of all_studies().
+  // The readers are in the order of all_studies().
   const std::function<Study(const TableReader&)> readers[] = {
       [&](const TableReader& tables) { return read_flow_jet(tables, units); },
       read_canonical_transformation, read_energy_conservation, read_optimal_control};
@@ -189,7 +190,7 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
   std::size_t number = 0;
   if (document.table.contains("study")) number = reader_of(0).choice("study");
   const TableReader root = reader_of(number);
-  // A newer schema may have other keys, so that its number comes before all else.
+  // A newer schema may have other keys, so that its number is checked first.
   if (root.has("schema")) root.integer("schema");
   attempt_misspelt_study(root, document.table);
   if (!errors.empty()) errors.raise(document.source.name, no_warnings);
@@ -200,7 +201,7 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
     const std::vector<std::string>& more = errors.warnings();
     scene->warnings.insert(scene->warnings.end(), more.begin(), more.end());
   }
-  // It heads tables and pages.
+  // The title stands at the head of tables and pages.
   title = printable(title, std::string::npos);
   if (!errors.empty()) {
     root.attempt_declared_keys(kind_of_model(document.table));

@@ -17,16 +17,16 @@ constexpr std::array<std::string_view, 19> zonal_keys = {
     "J2",  "J3",  "J4",  "J5",  "J6",  "J7",  "J8",  "J9",  "J10", "J11",
     "J12", "J13", "J14", "J15", "J16", "J17", "J18", "J19", "J20"};
 
-/// Largest distance of a file's origin from the centre of mass, in radii, that is left out without
-/// being asked for: 0.13 m of the Earth. Frames that satellites are tracked in keep to its centre
-/// of mass within centimetres.
+/// Largest distance, in radii, of a file's origin from the centre of mass that is ignored without a
+/// key that asks for it: 0.13 m for the Earth. Frames in which satellites are tracked keep to the
+/// Earth's centre of mass within centimetres.
 constexpr double largest_origin_offset = 2e-8;
 
 std::string_view zonal_key(int n) {
   return zonal_keys.at(static_cast<std::size_t>(n - ZonalCoefficients::lowest));
 }
 
-/// The keys of zonal-gravity, which are read here.
+/// The keys of zonal-gravity, which are read in this file.
 std::vector<SceneKey> zonal_gravity_keys() {
   constexpr int lowest = ZonalCoefficients::lowest, highest = ZonalCoefficients::highest;
   const std::vector<std::string_view> owner = {description_of(SystemModel::zonal_gravity).name};
@@ -45,7 +45,7 @@ std::vector<SceneKey> zonal_gravity_keys() {
        "of a file's coefficients that vary with time", owner},
       {"leave_out_C10", form::boolean(), absent::value(false),
        "of a file whose origin is not the centre of mass", owner}};
-  // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); what is larger
+  // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); a larger number
   // was meant in other units.
   for (const std::string_view key : zonal_keys) {
     keys.push_back(
@@ -69,7 +69,7 @@ SceneKey key_of(const SystemParameter& parameter, std::string_view system) {
   return key;
 }
 
-/// J1 and J21 look like keys; the nearest that there is would not be what was meant.
+/// J1 and J21 look like keys. The nearest existing key would not be what the user meant.
 void refuse_other_zonals(const TableReader& system) {
   for (int n = 0; n < 100; ++n) {
     const std::string key = fmt::format("J{}", n);
@@ -81,7 +81,7 @@ void refuse_other_zonals(const TableReader& system) {
   }
 }
 
-/// The zonal coefficients and what they refer to, key by key.
+/// Reads the zonal coefficients and their reference radius, key by key.
 void read_zonals(const TableReader& system, SystemSettings& settings) {
   const auto refuse = [&](std::string_view key, std::string_view right) {
     if (!system.has(key)) return;
@@ -99,7 +99,7 @@ void read_zonals(const TableReader& system, SystemSettings& settings) {
     settings.J[n] = system.number(zonal_key(n));
     needs_radius = true;
   }
-  // Without zonal coefficients nothing refers to the radius.
+  // Without zonal coefficients the radius has no meaning.
   if (needs_radius) settings.radius_km = system.number("radius_km");
 }
 
@@ -127,7 +127,7 @@ ZonalChoice read_zonal_choice(const TableReader& root) {
   return choice;
 }
 
-/// Refuses a file whose origin lies too far from the centre of mass to be taken for it.
+/// Refuses a file whose origin lies too far from the centre of mass.
 void require_centre_of_mass(const TableReader& system, const GravityField& field) {
   bool is_left_out = false;
   system.read_if_any("leave_out_C10", is_left_out);
@@ -150,7 +150,8 @@ void require_centre_of_mass(const TableReader& system, const GravityField& field
                           1000 * largest_origin_offset * field.radius_km, remedy));
 }
 
-/// Reads the gravity field from a file, which has all of it: a key beside it would contradict it.
+/// Reads the gravity field from a file. The file defines all of it, so that another key beside it
+/// would contradict it.
 void read_gravity_file(const TableReader& root, SystemSettings& settings) {
   const TableReader system = root.table("system");
   std::vector<std::string_view> keys = {"mu_km3_s2", "radius_km"};
@@ -226,7 +227,7 @@ const TableDescription& system_table() {
 
 SystemSettings read_system(const TableReader& root) {
   const TableReader system = root.table("system");
-  if (!system.has("model")) system.check_keys();  // a misspelt `model` is named
+  if (!system.has("model")) system.check_keys();  // a misspelt `model` is reported first
   SystemSettings settings;
   settings.model = static_cast<SystemModel>(system.choice("model"));
   const bool has_zonals = settings.model == SystemModel::zonal_gravity;

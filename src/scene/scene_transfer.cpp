@@ -16,18 +16,18 @@ namespace {
 
 constexpr std::size_t degrees_of_freedom = 3;
 
-/// At this distance from a half revolution the normal velocity on a circular orbit is
-/// 1 / sin(2 pi 0.01) = 16 times what a quarter revolution takes.
+/// On a circular orbit, at this distance (in revolutions) from a half revolution, the normal
+/// velocity is 1 / sin(2 pi 0.01) = 16 times that of a quarter revolution.
 constexpr double default_revolutions = 0.01;
 
-/// A table that said in which frame it is.
+/// A table that names its frame.
 struct FramedTable {
   TableReader table;
   RelativeFrame frame;
-  std::string head;  ///< of the key that names the frame
+  std::string head;  ///< head of a message about the key that names the frame
 };
 
-/// The frame of a further table, which must be that of the first.
+/// Requires that the frame of a further table is that of the first one.
 void require_one_frame(const FramedTable& first, const FramedTable& other) {
   if (first.frame == other.frame) return;
   const bool has_derivatives_only = other.table.has("derivatives") && !other.table.has("frame");
@@ -40,7 +40,7 @@ bool names_frame(const TableReader& table) {
   return table.has("frame") || table.has("derivatives");
 }
 
-/// The frame that a table or [transfer] names, else that of the scene's deputy, else RTN.
+/// The frame that a table or [transfer] names; otherwise that of the scene's deputy, or RTN.
 RelativeFrame frame_of(const TableReader& table, const TableReader& transfer,
                        const std::optional<DeputySettings>& deputy) {
   const bool is_named = names_frame(table) || names_frame(transfer);
@@ -77,7 +77,7 @@ std::string read_kind(const TableReader& transfer) {
   return kind;
 }
 
-/// The margin about singular times, canonical.
+/// The margin about singular times, in canonical units.
 double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
   const double period_of_circle =
       2 * std::numbers::pi * std::pow(initial_distance(nominal.state), 1.5);
@@ -105,15 +105,15 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal)
   return margin;
 }
 
-/// The ellipsoid to keep out of, in which neither end may lie.
+/// The ellipsoid that must stay free, in which neither end may lie.
 Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSettings& settings,
                               bool has_ends) {
   const std::vector<double> axes = transfer.positive_numbers("keep_out_m", 3);
   const Eigen::Vector3d semi_axes(axes[0], axes[1], axes[2]);
-  // Along inertial axes the flight alone tells.
+  // Along inertial axes only the flight shows whether an end lies in the ellipsoid.
   if (!has_ends || settings.frame == RelativeFrame::inertial) return semi_axes;
   for (const bool is_start : {true, false}) {
-    // Of other forms the flight alone tells, too.
+    // For other forms of the end, too, only the flight shows it.
     if (!is_start && !settings.end.is_along_axes()) continue;
     const RelativeState& state = is_start ? settings.start : settings.end;
     if (state.position_m.cwiseQuotient(semi_axes).norm() >= 1) continue;
@@ -144,7 +144,7 @@ const TableDescription& waypoint_table() {
   return table;
 }
 
-/// Further ones take impulses beyond any spacecraft.
+/// More revolutions take impulses beyond any spacecraft.
 constexpr int most_revolutions = 20;
 
 std::vector<int> read_revolutions(const TableReader& transfer, bool has_ends) {

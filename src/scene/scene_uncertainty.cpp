@@ -17,8 +17,8 @@ namespace {
 constexpr int most_flown_samples = 10000000;
 constexpr double largest_seed = 1e15;
 
-/// Of covariances velocities are differences of inertial ones unless they say otherwise, as in
-/// CCSDS messages.
+/// The velocities of covariances are differences of inertial velocities unless the table says
+/// otherwise, as in CCSDS messages.
 RelativeFrame read_covariance_frame(const TableReader& table, const TableReader& fallback) {
   const RelativeFrame frame = read_relative_frame(table, fallback);
   const bool says_derivatives = table.has("derivatives") || fallback.has("derivatives");
@@ -119,7 +119,7 @@ std::vector<double> read_deviations(const TableReader& table, std::string_view k
   return deviations;
 }
 
-/// Above these an expansion about the chief says nothing, and a unit is most likely wrong.
+/// Above these limits an expansion about the chief is meaningless, and a unit is most likely wrong.
 struct Limits {
   double position_m = 0;
   double velocity_m_s = 0;
@@ -163,8 +163,8 @@ bool has_covariance(const TableReader& table) {
   });
 }
 
-/// The state of the chief, or of the deputy whose table is given, with the names that the scene and
-/// its messages have for it.
+/// The state of the chief, or of the deputy whose table is given, with its names in the scene and
+/// in its messages.
 KnownState state_of_owner(const Scene& scene, const Nominal& nominal, const TableReader* deputy) {
   KnownState state;
   const CanonicalUnits units = canonical_units(nominal.scale);

@@ -6,15 +6,15 @@
 
 namespace hamjet::io {
 
-/// The parameters of a model. An orbit has what its gravity field is made of: mu, the radius, each
-/// J_n that is present, and the file that they come from, if any; another model has the keys of its
-/// table `[system]` with their values, defaults included.
+/// The parameters of a model. For an orbit they define the gravity field: mu, the radius, each J_n
+/// that is present, and the file from which they come, if any. For another model they are the keys
+/// of its table `[system]` with their values, defaults included.
 nlohmann::ordered_json system_json(const SystemSettings& system);
 
-/// All members of the settings by their names; parameters of other methods than theirs are null.
+/// All members of the settings by name; parameters of other methods are null.
 nlohmann::ordered_json integrator_json(const IntegratorSettings& settings);
 
-/// `ephemeris` and `nominal_file` of a summary; null where the scene has none.
+/// The members `ephemeris` and `nominal_file` of a summary; null where the scene has none.
 nlohmann::ordered_json ephemeris_json(const Scene& scene);
 nlohmann::ordered_json nominal_file_json(const Scene& scene);
 

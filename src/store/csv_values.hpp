@@ -8,7 +8,7 @@
 
 namespace hamjet::io {
 
-/// A field as RFC 4180 has it: in quotes if a character in it would end it.
+/// A field in the form of RFC 4180: in quotes if a character in it would end the field.
 inline std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field = "\"";
@@ -19,7 +19,7 @@ inline std::string csv_field(std::string_view text) {
   return field + "\"";
 }
 
-/// A number with 17 digits, from which the same number is read back; empty without a value.
+/// A number with 17 digits, which bring back the same number; empty for no value.
 inline std::string csv_number(double value) { return fmt::format("{:.17g}", value); }
 inline std::string csv_number(const std::optional<double>& value) {
   return value ? csv_number(*value) : "";

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Somebody who removes the file while it is being opened makes another attempt necessary.
+/// If somebody removes the file while it is being opened, another attempt is needed.
 constexpr int most_attempts = 100;
 
 /// Whether the path still leads to the open file.
@@ -27,7 +27,7 @@ bool leads_to(const fs::path& path, int descriptor) {
          open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
 }
 
-/// The holder as "process 1234", from what it wrote into the lock file.
+/// The holder as "process 1234", from the content of the lock file.
 std::string holder(int descriptor) {
   std::array<char, 32> text;
   const ssize_t length = ::pread(descriptor, text.data(), text.size(), 0);
@@ -37,12 +37,13 @@ std::string holder(int descriptor) {
 }
 
 void write_holder(int descriptor) {
-  // Somebody may have given the name to a file that has another name, and content, elsewhere.
+  // The name may be a hard link to a file of the user with content of its own, which must not be
+  // overwritten.
   struct stat status {};
   const bool is_ours =
       ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
   if (!is_ours) return;
-  // The number serves a message only: a full disk must not matter.
+  // The number serves messages only, so that a full disk does not matter here.
   const std::string text = fmt::format("{}\n", ::getpid());
   [[maybe_unused]] const bool is_written =
       ::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, text.data(), text.size(), 0) > 0;
@@ -52,7 +53,7 @@ void write_holder(int descriptor) {
 bool try_to_lock(int descriptor) {
   while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return false;
-    if (errno != EINTR) return true;  // a file system without locks
+    if (errno != EINTR) return true;  // the file system has no locks
   }
   return true;
 }
@@ -74,14 +75,15 @@ DirectoryLock::DirectoryLock(const fs::path& directory) : file_(directory / ".ha
       throw_file_error(directory, "the output directory is in use by another hamjet",
                        holder(descriptor_.value()) + "; wait for its end or choose another -o");
     }
-    // The last holder may have removed the file just before.
+    // The last holder may have removed the file just before the lock was taken.
     if (leads_to(file_, descriptor_.value()) || attempt >= most_attempts) break;
   }
   write_holder(descriptor_.value());
 }
 
 DirectoryLock::~DirectoryLock() {
-  // The file is removed while locked, so that it is nobody else's: whoever opened it finds it gone.
+  // The file is removed while it is locked: a process that has opened it meanwhile finds that its
+  // name is gone, and tries again.
   if (is_in_place()) ::unlink(file_.c_str());
   remove_empty(created_);
 }

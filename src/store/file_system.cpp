@@ -73,7 +73,7 @@ void write_all(const Descriptor& file, std::string_view content, const fs::path&
 }
 
 void flush(const Descriptor& file, const fs::path& shown) {
-  // Some file systems cannot, and say so.
+  // Some file systems cannot flush a file, and report EINVAL.
   if (::fsync(file.value()) != 0 && errno != EINVAL) {
     throw_file_error(shown, "cannot be flushed", errno_text());
   }
@@ -113,7 +113,8 @@ std::vector<fs::path> entries_below(const fs::path& folder) {
 }
 
 void remove_empty(const std::vector<fs::path>& folders) {
-  // rmdir is used, not fs::remove, which would remove a file that has taken the folder's place.
+  // rmdir is used instead of fs::remove, which would remove a file that has taken the folder's
+  // place.
   for (auto p = folders.rbegin(); p != folders.rend(); ++p) ::rmdir(p->c_str());
 }
 
@@ -141,7 +142,8 @@ fs::path temporary_in(const fs::path& folder) {
   if (::getentropy(&number, sizeof number) != 0) {
     throw_file_error(folder, "no file can be named at random", errno_text());
   }
-  // Machines that share a folder may have the same process numbers.
+  // Machines that share a folder may have the same process numbers, so that the name has a random
+  // number too.
   return folder / fmt::format(".hamjet-{:016x}.{}-{}.tmp", number, host_name(), ::getpid());
 }
 

@@ -9,19 +9,20 @@
 #include <utility>
 #include <vector>
 
-// Files on the disk, written so that a full disk or a power failure shows as an error or not at
-// all. Errors are Error(input_output) with path and reason.
+// Files on the disk, written so that a full disk or a power failure shows as an error or leaves no
+// trace. Errors are Error(input_output) with path and reason.
 
 namespace hamjet::io {
 
-/// A file descriptor that is closed when the object goes.
+/// A file descriptor that is closed in the destructor.
 class Descriptor {
  public:
   Descriptor() = default;
-  /// Opens a file; the descriptor is -1, with errno set, if that fails. New files may be read by
-  /// all, as far as the umask allows, unless told otherwise. Children do not inherit it.
+  /// Opens a file; the descriptor is -1, with errno set, if that fails. Unless `mode` says
+  /// otherwise, a new file may be read by all users, as far as the umask allows. Child processes do
+  /// not inherit the descriptor.
   Descriptor(const std::filesystem::path& path, int flags, mode_t mode = 0644);
-  /// Takes over one that is open.
+  /// Takes over an open descriptor.
   explicit Descriptor(int value) : value_(value) {}
   /// Another descriptor of the same open file; -1, with errno set, if that fails.
   static Descriptor duplicate(int of);
@@ -36,7 +37,8 @@ class Descriptor {
 
   int value() const { return value_; }
   bool is_open() const { return value_ >= 0; }
-  /// Closes now and tells whether that worked: a full disk can show here only.
+  /// Closes the file now and returns whether that worked: some errors of a full disk show only
+  /// here.
   bool close();
 
  private:
@@ -49,59 +51,61 @@ class Descriptor {
 /// The text of `errno`.
 std::string errno_text();
 
-/// Writes all of the text to an open file. `shown` is the path that errors name.
+/// Writes all of the text to an open file. `shown` is the path that error messages name.
 void write_all(const Descriptor& file, std::string_view content,
                const std::filesystem::path& shown);
 
-/// Waits until the disk has what was written.
+/// Waits until the content of the file is on the disk.
 void flush(const Descriptor& file, const std::filesystem::path& shown);
 
-/// Writes a file, of whose name there must be none and no link either, and flushes it to the disk.
-/// `shown` is the path that errors name.
+/// Writes a new file and flushes it to the disk. There must be no file or link of this name.
+/// `shown` is the path that error messages name.
 void write_and_flush(const std::filesystem::path& path, std::string_view content,
                      const std::filesystem::path& shown);
 
-/// Makes renames in a folder durable. Some file systems refuse that, which loses nothing else.
+/// Makes renames in a folder durable. Some file systems refuse this, which is ignored.
 void flush_folder(const std::filesystem::path& folder);
 
-/// Creates the folder with those above it and returns the new ones, outermost first. Throws with
-/// `problem`, leaving none.
+/// Creates the folder with its parents and returns the new folders, outermost first. If it throws
+/// (with `problem`), it leaves none of them.
 std::vector<std::filesystem::path> create_folders(const std::filesystem::path& folder,
                                                   std::string_view problem);
 
-/// Everything below a folder, each folder before what is in it; links are not followed. Nothing
-/// where the folder is not there; what cannot be read is left out. It is no recursive iterator of
-/// the standard library, for libstdc++ declares its step noexcept and allocates in it, so that the
-/// program ends where memory runs out.
+/// Everything below a folder, each folder before its content; links are not followed. The list is
+/// empty where the folder does not exist, and leaves out what cannot be read. The recursive
+/// iterator of the standard library is not used, because libstdc++ declares its step noexcept but
+/// allocates in it, so that the program ends where memory runs out.
 std::vector<std::filesystem::path> entries_below(const std::filesystem::path& folder);
 
-/// Removes the folders that are empty, the last of the list first; one with files in it stays.
+/// Removes the empty folders of the list, from the last to the first; a folder with files in it
+/// stays.
 void remove_empty(const std::vector<std::filesystem::path>& folders);
 
-/// The first folder from the directory down to a file that is a symbolic link; empty if none is.
-/// Files behind it are not the directory's. (The directory itself may be a link.)
+/// The first symbolic link on the way from the directory down to a file; empty if there is none.
+/// Files behind such a link do not belong to the directory. (The directory itself may be a link.)
 std::filesystem::path link_on_the_way(const std::filesystem::path& directory,
                                       const std::filesystem::path& relative);
 
-/// Throws for a file with such a link on its way.
+/// Throws for a file with a symbolic link on its way (see link_on_the_way).
 void refuse_link_on_the_way(const std::filesystem::path& directory,
                             const std::filesystem::path& relative);
 
-/// A name in the folder that nobody can foretell, for a file that is written there and then
+/// An unpredictable name in the folder, for a file that is written under this name and then
 /// renamed.
 std::filesystem::path temporary_in(const std::filesystem::path& folder);
 
-/// A file without a name, to be written and read, which is gone when it is closed; and the folder
-/// that has room for it: TMPDIR, or /tmp. Throws Error(input_output).
+/// A file without a name, for writing and reading, which disappears when it is closed; `folder`
+/// becomes the folder in which it is: TMPDIR, or /tmp. Throws Error(input_output).
 Descriptor unnamed_temporary_file(std::filesystem::path& folder);
 
 /// The process that writes a temporary file.
 struct TemporaryWriter {
   bool is_of_this_machine = false;
-  bool is_running = false;  ///< known of this machine's processes only
+  bool is_running = false;  ///< known for processes of this machine only
 };
 
-/// The writer of a temporary file, by its name; no value if the name is not one.
+/// The process that writes a temporary file, from the file's name; no value if the name is not that
+/// of a temporary file.
 std::optional<TemporaryWriter> temporary_writer(const std::filesystem::path& temporary);
 
 }  // namespace hamjet::io

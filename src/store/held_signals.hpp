@@ -7,12 +7,12 @@
 
 namespace hamjet::io {
 
-/// The signals by which a user or a system asks a program to end: the terminal is gone, Ctrl-C,
+/// The signals by which a user or a system asks a program to end: hang-up of the terminal, Ctrl-C,
 /// Ctrl-\, kill.
 inline constexpr std::array ending_signals = {SIGHUP, SIGINT, SIGQUIT, SIGTERM};
 
-/// While it lives, the signals that end the program (and the alarm after them) wait in this thread,
-/// and never come to threads that it starts.
+/// During its lifetime, the signals that end the program (and the alarm after them) are blocked in
+/// this thread and in threads that it starts; they wait until the end.
 class HeldSignals {
  public:
   HeldSignals() {

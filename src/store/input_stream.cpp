@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opens a file or a pipe. Devices are told by their name first: to open one may already do
-/// something.
+/// Opens a file or a pipe. Devices are recognised by their name before opening, because opening a
+/// device may already have an effect.
 Descriptor open_file_or_pipe(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) != 0) throw_unreadable(file);

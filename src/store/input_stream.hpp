@@ -11,23 +11,23 @@
 
 namespace hamjet::io {
 
-/// A text that is read piece by piece, however long it is: of a regular file, a pipe or standard
-/// input; of no device, which may have no end. Throws Error(input_output) with path and reason,
-/// MissingFile where the file is not there.
+/// A text of any length that is read piece by piece, from a regular file, a pipe or standard input.
+/// Devices, which may have no end, are refused. Throws Error(input_output) with path and reason,
+/// and MissingFile where the file does not exist.
 class InputStream {
  public:
   explicit InputStream(const std::filesystem::path& file);
   static InputStream standard_input();
 
-  /// What messages call it, printable.
+  /// The printable name of the text in messages.
   const std::string& name() const { return name_; }
-  /// The next bytes, as many as there is room for; 0 at the end.
+  /// Reads the next bytes, as many as fit, and returns their number; 0 at the end.
   std::size_t read(std::span<char> bytes);
-  /// Makes sure that the text can be read again: that of a pipe is copied to the disk.
+  /// Makes sure that the text can be read again; the text of a pipe is copied to the disk.
   void keep();
-  /// Begins anew, after keep().
+  /// Starts again at the beginning of the text, after keep().
   void rewind();
-  /// Throws if a regular file is not what it was when it was opened.
+  /// Throws if a regular file has changed since it was opened.
   void require_unchanged() const;
 
  private:

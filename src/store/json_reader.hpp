@@ -17,11 +17,11 @@
 
 namespace hamjet::io {
 
-/// A value of a JSON file that hamjet wrote, together with its place in it: reading it as something
-/// that it is not throws Error(input_output) with file and place.
+/// A value of a JSON file that hamjet wrote, together with its place in the file. Reading it as a
+/// type that it does not have throws Error(input_output) with file and place.
 class JsonReader {
  public:
-  /// `file` is the name for messages. The JSON must outlive the reader.
+  /// `file` is the file's name for messages. The JSON must outlive the reader.
   JsonReader(const nlohmann::json& json, std::string file, std::string path = {})
       : json_(&json), file_(std::move(file)), path_(std::move(path)) {}
 
@@ -61,7 +61,7 @@ class JsonReader {
   template <class Integer>
   Integer integer() const {
     if (!json_->is_number_integer()) fail("must be an integer");
-    // Both representations that the parser has are compared without conversion.
+    // The parser stores signed and unsigned numbers; both are compared without conversion.
     const bool is_unsigned = json_->is_number_unsigned();
     if (is_unsigned ? !std::in_range<Integer>(json_->get<std::uint64_t>())
                     : !std::in_range<Integer>(json_->get<std::int64_t>())) {
@@ -101,7 +101,7 @@ class JsonReader {
     return list([](const JsonReader& value) { return value.number(); });
   }
 
-  /// Reads what json_value has written.
+  /// Reads a value that json_value has written.
   void read_into(double& value) const { value = number(); }
   void read_into(std::optional<double>& value) const { value = optional_number(); }
   void read_into(int& value) const { value = integer<int>(); }
@@ -112,7 +112,7 @@ class JsonReader {
     value = one_of<Enumeration>(names_of(value));
   }
 
-  /// Reads what fields_json or integrator_json has written; null leaves the default.
+  /// Reads settings that fields_json or integrator_json has written; null leaves the default.
   template <HasFields Settings>
   Settings fields() const {
     Settings settings;
@@ -129,7 +129,7 @@ class JsonReader {
     return static_cast<std::size_t>(found - names.begin());
   }
 
-  /// The enumerator whose name this is.
+  /// The enumerator of this name.
   template <class Enumeration>
   Enumeration one_of(const std::vector<std::string_view>& names) const {
     return static_cast<Enumeration>(index_in(names));
@@ -153,7 +153,8 @@ inline nlohmann::json JsonReader::parse(std::string_view text, const std::string
     refuse(fmt::format("line {}", 1 + std::count(before.begin(), before.end(), '\n')),
            "is not valid JSON");
   } catch (const nlohmann::json::exception&) {
-    // A number beyond the range of a double is refused by another exception than a wrong character.
+    // The parser throws different exceptions for a number beyond the range of a double and for a
+    // wrong character.
     refuse("a number", "is out of range");
   }
   if (!json.is_object()) refuse("the file", "must be an object");

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Numbers that are not finite become strings; nlohmann would write null.
+/// Replaces numbers that are not finite by strings; nlohmann would write null.
 void name_what_is_not_finite(Json& value) {
   if (value.is_structured()) {
     for (Json& element : value) name_what_is_not_finite(element);

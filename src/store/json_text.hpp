@@ -5,9 +5,9 @@
 
 namespace hamjet::io {
 
-/// A value as all files and outputs have it. JSON has no numbers that are not finite: they stand
-/// there as the strings "inf", "-inf" and "nan", wherever they come from; null is what was not
-/// computed. Characters that drive a terminal are escaped. `indent` as nlohmann's dump has it.
+/// A JSON value in the form in which all files and outputs have it. JSON has no numbers that are
+/// not finite: they become the strings "inf", "-inf" and "nan"; null means not computed. Characters
+/// that control a terminal are escaped. `indent` is that of nlohmann's dump.
 std::string json_text(nlohmann::ordered_json value, int indent = 2);
 
 }  // namespace hamjet::io

@@ -29,7 +29,7 @@ void remove_folder(const fs::path& folder) {
   fs::remove_all(folder, ignored);
 }
 
-/// The regular files below a folder, relative to it; none if it is not there.
+/// The regular files below a folder, relative to it; empty if the folder does not exist.
 std::vector<fs::path> files_below(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -48,8 +48,8 @@ void flush_folders_below(const fs::path& folder) {
   }
 }
 
-/// Throws where a rename would fail, over a directory or below a file, after other files were
-/// renamed.
+/// Throws where a later rename would fail because a directory has the file's name, or a file that
+/// of a folder. Without this check other files would already have been renamed.
 void require_place(const fs::path& directory, const fs::path& relative) {
   const fs::path target = directory / relative;
   refuse_link_on_the_way(directory, relative);
@@ -77,15 +77,15 @@ void move_file(const fs::path& from, const fs::path& to) {
                    errno_text() + "; the next hamjet in this directory tries again");
 }
 
-/// The text of a regular file of at most `most_bytes`; empty if it cannot be read.
+/// The text of a regular file of at most `most_bytes`; empty if the file cannot be read.
 std::string text_if_any(const fs::path& file, std::size_t most_bytes) {
   std::error_code ignored;
   if (!fs::is_regular_file(fs::symlink_status(file, ignored))) return "";
   return read_regular_file(file, most_bytes).text;
 }
 
-/// Throws for a decided set that is not of this user: whoever can make folders in the directory
-/// could have files of his put anywhere in the user's name.
+/// Throws for a decided set that does not belong to this user: whoever may create folders in the
+/// directory could otherwise make this user put foreign files anywhere.
 void require_own(const fs::path& folder) {
   struct stat status {};
   if (::lstat(folder.c_str(), &status) != 0 || status.st_uid == ::geteuid()) return;
@@ -103,7 +103,7 @@ void remove_earlier(const fs::path& directory, const fs::path& name,
     if (has_successor || !link_on_the_way(directory, file.path).empty()) continue;
     const fs::path path = directory / file.path;
     const FileRecord found = record_of(file.path, text_if_any(path, file.bytes));
-    // A file that somebody has changed since is theirs to keep.
+    // A file that somebody has changed since then belongs to them and stays.
     if (found.bytes != file.bytes || found.crc32 != file.crc32) continue;
     ::unlink(path.c_str());
     if (path.parent_path() != directory) remove_empty({path.parent_path()});
@@ -116,7 +116,7 @@ void remove_earlier(const fs::path& directory, const fs::path& name,
 
 PreparedSet::PreparedSet(fs::path directory) : directory_(std::move(directory)) {
   const fs::path folder = unfinished(directory_);
-  // What has this name now is a leftover, or somebody's link to another place.
+  // Whatever has this name now is a leftover, or somebody's link to another place.
   remove_folder(folder);
   if (::mkdir(folder.c_str(), 0777) != 0) {
     throw_file_error(directory_, "the results cannot be prepared", errno_text());
@@ -146,7 +146,7 @@ std::string PreparedSet::commit(const fs::path& name, std::string_view summary) 
   const fs::path file = unfinished(directory_) / "summary" / name;
   create_folders(file.parent_path(), "the directory cannot be created");
   write_and_flush(file, sealed, directory_ / name);
-  // Folders are made before the decision, because they need space on the disk.
+  // Folders are made before the set is decided, because they need space on the disk.
   for (const FileRecord& record : files_) {
     const auto folders =
         create_folders((directory_ / record.path).parent_path(), "the directory cannot be created");

@@ -39,7 +39,7 @@ ResultSet::ResultSet(std::filesystem::path directory, std::string name)
     const DirectoryLock lock(directory_);
     put_in_place(directory_);
   }
-  // Reading a pipe in the place of a result would wait for its writer.
+  // Reading a pipe in the place of a result would wait for a process that writes to it.
   summary_ = require_regular_file(path(), largest_summary_bytes);
 }
 
@@ -50,7 +50,8 @@ std::string ResultSet::read(const std::string& relative) {
   const std::filesystem::path file = directory_ / relative;
   std::error_code none;
   const auto size = std::filesystem::file_size(file, none);
-  // A file that was changed a little is read, so that its reader can say what is wrong in it.
+  // A file whose size has changed little is read all the same, so that its reader can say what is
+  // wrong in it.
   if (!none && entry != files.end() && size > 2 * entry->bytes + small_change) {
     throw_file_error(
         file,

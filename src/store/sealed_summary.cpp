@@ -73,7 +73,7 @@ std::vector<FileRecord> sealed_files(std::string_view text) {
       if (is_below(file.path)) files.push_back(std::move(file));
     }
   } catch (const nlohmann::json::exception&) {
-    files.clear();  // sealed, yet nothing that was written here
+    files.clear();  // sealed, but not with the content that `seal` writes
   }
   return files;
 }

@@ -10,11 +10,12 @@
 
 namespace hamjet::io {
 
-/// A text of any length that is kept until it is whole: the first megabytes in memory, a longer one
-/// in a file without a name in TMPDIR, or /tmp. Throws Error(input_output) where there is no room.
+/// A text of any length that is kept until it is complete: the first megabytes in memory, a longer
+/// text in a file without a name in TMPDIR, or /tmp. Throws Error(input_output) where there is no
+/// room.
 class SpooledText {
  public:
-  /// Bytes that are kept in memory.
+  /// The number of bytes that are kept in memory.
   static constexpr std::size_t most_in_memory = std::size_t{4} << 20;
 
   void add(std::string_view text);
@@ -22,7 +23,7 @@ class SpooledText {
   void hand_out(const std::function<void(const std::string&)>& take);
 
  private:
-  /// Moves what is in memory to the file.
+  /// Moves the content of the memory to the file.
   void store();
 
   std::string memory_;

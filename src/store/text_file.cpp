@@ -19,7 +19,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Why the last call of the system failed, from errno.
+/// The reason, from errno, why the last system call failed.
 FileContent failed_content() {
   const bool is_missing = errno == ENOENT;
   return {{}, errno_text(), false, is_missing};
@@ -47,7 +47,7 @@ const char* kind_of_file(mode_t mode) {
 }
 
 FileContent read_regular_file(const std::filesystem::path& file, std::size_t most_bytes) {
-  // Without O_NONBLOCK, opening a pipe would wait for its writer for ever.
+  // Without O_NONBLOCK, opening a pipe would wait until another process opens it for writing.
   const Descriptor descriptor(file, O_RDONLY | O_NONBLOCK);
   if (!descriptor.is_open()) return failed_content();
   struct stat status {};
@@ -65,10 +65,10 @@ FileContent read_regular_file(const std::filesystem::path& file, std::size_t mos
     if (count < 0) return failed_content();
     if (count == 0) break;
     text.append(buffer.data(), static_cast<std::size_t>(count));
-    // The file may have grown since its size was asked for.
+    // The file may have grown since its size was read.
     if (text.size() > most_bytes) return too_large(text.size(), most_bytes);
   }
-  // Half of an old file and half of a new one can look like a good file.
+  // Half of an old file followed by half of a new one can look like a valid file.
   struct stat now {};
   if (::fstat(descriptor.value(), &now) != 0) return failed_content();
   const bool is_as_before = now.st_size == status.st_size &&

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The name that the kernel has for an open file.
+/// The path by which the kernel gives access to an open file.
 std::string name_of_open(const Descriptor& file) {
   return fmt::format("/proc/self/fd/{}", file.value());
 }
@@ -73,7 +73,8 @@ bool WholeFile::put_where_nothing_is() {
   if (result == 0) {
     is_named_ = false;
   } else if (errno == EINVAL || errno == ENOSYS) {
-    // The file system cannot rename so; a second name fails in the same way where one is there.
+    // The file system does not support this kind of rename. A second name (hard link) fails in the
+    // same way where a file is there.
     result = ::link(temporary_.c_str(), path_.c_str());
   }
   if (result != 0 && errno == EEXIST) return false;

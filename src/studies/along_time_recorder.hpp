@@ -14,8 +14,8 @@
 
 namespace hamjet {
 
-/// Watches an integration: its energy error and, of one kind of generating function, the exactness
-/// residual of degree 0.
+/// Observes an integration: its energy error and, for one kind of generating function, the
+/// exactness residual of degree 0.
 class AlongTimeRecorder {
  public:
   AlongTimeRecorder(std::string label, double duration,
@@ -28,7 +28,7 @@ class AlongTimeRecorder {
     result_.label = std::move(label);
   }
 
-  /// Records the state after a step; to be called after every one.
+  /// Records the state after a step; it must be called after every step.
   template <class Real>
   void record(double time, const FlowJet<Real>& jet, double energy_error) {
     if (std::abs(time) < next_ && time != duration_) return;
@@ -40,8 +40,8 @@ class AlongTimeRecorder {
     result_.points.push_back(point);
   }
 
-  /// The record. `singular` are the flow's singular times, see times_without_kind; of a failed
-  /// integration only those before its end are kept.
+  /// The record. `singular` are the flow's singular times, see times_without_kind; if the
+  /// integration failed, only those before its end are kept.
   RunAlongTime take(const TimesWithoutKind& singular) {
     const double reached = result_.points.empty() ? 0 : std::abs(result_.points.back().time);
     for (const double time : singular.times) {

@@ -8,21 +8,21 @@
 
 namespace hamjet {
 
-/// Why the scene's key jet.arcs = "auto" leaves a run in one piece whatever the counts; none where
-/// the counts decide.
+/// The reason why a run with jet.arcs = "auto" stays in one piece for any counts; no value if the
+/// counts decide.
 std::optional<std::string> reason_not_to_split(const Scene& scene,
                                                const IntegratorSettings& settings);
 
-/// The method of an integrator in the form that arcs take. Throws Error(usage) if it cannot be
-/// split.
+/// The method of an integrator in the form that integrations in arcs use. Throws Error(usage) if it
+/// cannot be split.
 SplittableMethod splittable_method(const IntegratorSettings& settings);
 
-/// Decides into how many arcs a run is split, for which its nominal is integrated. Throws as that
+/// Decides into how many arcs a run is split, for which its nominal is integrated. Throws as this
 /// integration does.
 ArcPlan plan_arcs(const Scene& scene, const ComputedProblem& problem,
                   const IntegratorSettings& settings, const ProgressCallback& progress = {});
 
-/// Throws Error(scene), naming the key, if the scene asks for arcs: `who` needs jets at many times
+/// Throws Error(scene), naming the key, if the scene asks for arcs; `who` needs jets at many times
 /// of one unsplit propagation.
 void require_unsplit(const Scene& scene, const std::string& who);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// A file that holds one number; none where it is missing or says "max".
+/// The number in a file that holds one number; no value if the file is missing or says "max".
 std::optional<double> number_in(const std::filesystem::path& file) {
   std::ifstream stream(file);
   double value = 0;
@@ -34,8 +34,8 @@ std::optional<double> entry_of(const std::filesystem::path& file, const std::str
   return std::nullopt;
 }
 
-/// What a control group leaves: its limit less what is in use, without the pages of files that were
-/// read, which are dropped when memory is short.
+/// The memory that a control group leaves: its limit minus the memory in use, without pages of
+/// files that were read, which are dropped when memory is short.
 double free_in_group(const std::filesystem::path& group, const char* limit, const char* usage,
                      const char* droppable) {
   const auto most = number_in(group / limit);
@@ -44,9 +44,9 @@ double free_in_group(const std::filesystem::path& group, const char* limit, cons
   return *most - *used + entry_of(group / "memory.stat", droppable).value_or(0);
 }
 
-/// The least that the process's control group and those above it leave. `root` is where the
-/// hierarchy is mounted; inside a container the group's path may not exist there, and the root is
-/// the container's own group.
+/// The least memory that the process's control group and the groups above it leave. `root` is where
+/// the hierarchy is mounted; inside a container the group's path may not exist there, and the root
+/// is then the container's own group.
 double free_in_groups(const std::filesystem::path& root, const std::string& group,
                       const char* limit, const char* usage, const char* droppable) {
   double least = free_in_group(root, limit, usage, droppable);

@@ -9,7 +9,7 @@ namespace hamjet {
 /// The nominal's final state: the constant terms of a jet.
 std::vector<double> nominal_of(const FlowJet<double>& jet);
 
-/// A flow problem for the trajectory alone: series of order 0.
+/// A flow problem for the trajectory alone, with series of order 0.
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
                                        double duration);
 

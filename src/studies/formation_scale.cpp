@@ -60,8 +60,8 @@ FormationPoints::FormationPoints(const Scene& scene, const ComputedProblem& prob
 double FormationPoints::position_error_m(const FlowJet<Extended>& jet,
                                          const FlowJet<Extended>& reference) const {
   const SeriesSpace& space = reference[0].space();
-  // The coefficients are subtracted in extended precision, the small differences evaluated in
-  // double.
+  // The coefficients are subtracted in extended precision; the small differences are evaluated in
+  // double precision.
   std::vector<std::vector<double>> differences(positions_, std::vector<double>(space.size()));
   for (std::size_t i = 0; i < positions_; ++i) {
     for (std::size_t k = 0; k < space.size(); ++k) {

@@ -7,27 +7,28 @@
 
 namespace hamjet {
 
-/// Angular frequency that makes a position deviation into the momentum deviation of the same size:
-/// the mean motion of an elliptic orbit, that of a circular orbit at the initial radius otherwise,
-/// sqrt(k m) for the oscillator (momentum per length).
+/// Angular frequency that converts a position deviation to the momentum deviation of the same size.
+/// It is the mean motion of an elliptic orbit, otherwise that of a circular orbit at the initial
+/// radius, and sqrt(k m) for the oscillator (momentum per length).
 double momentum_per_length(const Scene& scene);
 
 /// Deviations of the scene's separation, at which jets are compared: along each axis of position,
-/// and random ones of a fixed seed, every second one with a random momentum of the same size (see
-/// momentum_per_length).
+/// and random ones from a fixed seed, every second of which has a random momentum of the same size
+/// (see momentum_per_length).
 class FormationPoints {
  public:
   FormationPoints(const Scene& scene, const ComputedProblem& problem);
 
   std::size_t size() const noexcept { return points_.size(); }
 
-  /// Largest distance, over all points, between the final positions that two jets give; metres.
+  /// Largest distance, over all points, between the final positions that two jets give, in metres.
   double position_error_m(const FlowJet<Extended>& jet, const FlowJet<Extended>& reference) const;
 
  private:
-  std::vector<std::vector<double>> points_;  ///< canonical, an entry for each variable
-  std::size_t positions_ = 0;                ///< components that are positions
-  double metres_ = 0;                        ///< metres in one canonical unit of length
+  /// In canonical units, with an entry for each variable.
+  std::vector<std::vector<double>> points_;
+  std::size_t positions_ = 0;  ///< number of components that are positions
+  double metres_ = 0;          ///< metres per canonical unit of length
 };
 
 }  // namespace hamjet

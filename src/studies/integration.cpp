@@ -197,7 +197,7 @@ void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
         sample_rounding<Real>(flow, jet, along_line, estimate_settings(scene, progress));
     for (std::size_t d = 0; d < rounding.size(); ++d) raise_to(rounding[d], sampled[d]);
   } catch (const Error& error) {
-    // The jet is there all the same; it is judged by the one draw that is known.
+    // The jet itself is complete; it is judged by the single draw that is known.
     if (error.kind() != ErrorKind::numerical) throw;
   }
 }

@@ -13,7 +13,7 @@ namespace hamjet {
 JetPropagation::JetPropagation(const ComputedProblem& problem, const IntegratorSettings& settings)
     : settings_(&settings), flow_(flow_problem<double>(problem, 0)) {
   if (description_of(settings.method).splittable(settings)) {
-    // A symmetry is left out of any duration but none.
+    // A symmetry is left out for any duration except zero.
     FlowProblem<double> moving = flow_;
     moving.duration = 1;
     if (auto reduction = SymmetryReduction<double>::of(moving)) {

@@ -8,12 +8,13 @@
 
 namespace hamjet {
 
-/// Chooses a kind along time: the best one, but the last choice as long as it is not much worse, so
-/// that the kind does not change to and fro where several are nearly alike.
+/// Chooses a kind along time: the best one, except that the last choice is kept as long as it is
+/// not much worse. So the kind does not change back and forth where several are nearly equal.
 class KindChoice {
  public:
-  /// Index of the kind chosen by a figure of each kind, the smaller the better; none if no figure
-  /// is finite. Before the first choice F1, the first kind, counts as the last one.
+  /// Index of the chosen kind, by a figure of merit of each kind for which smaller is better; no
+  /// value if no figure is finite. Before the first choice, F1, the first kind, counts as the last
+  /// choice.
   std::optional<std::size_t> choose(const std::vector<double>& figures) {
     const auto best =
         static_cast<std::size_t>(std::min_element(figures.begin(), figures.end(),

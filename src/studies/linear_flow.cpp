@@ -28,8 +28,8 @@ struct LinearArc {
   StateTransition matrix;
 };
 
-/// The jet to a relative local error of 1e-14. Most arcs are so short that one step does, which
-/// saves the choice of steps, several times the step's own cost.
+/// The jet to a relative local error of 1e-14. Most arcs are so short that one step suffices, which
+/// saves the choice of steps, several times the cost of the step.
 FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
   constexpr double local_error = 1e-14;
   IntegrationStatistics statistics;
@@ -86,8 +86,8 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
-    // After ten revolutions or so it is seen whether the whole span is far too long, and soon after
-    // whether it is too long at all.
+    // After about ten revolutions it is known whether the whole span is far too long, and soon
+    // after whether it is too long at all.
     const double foreseen = static_cast<double>(times_.size()) * (duration / time);
     const double checkpoints = static_cast<double>(times_.size());
     const double error = checkpoints >= 40 * per_revolution ? 1.05
@@ -113,7 +113,7 @@ double LinearFlow::checkpoint_distance(const std::vector<double>& state,
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
   const auto slope = evaluate_on_series(problem_->system->vector_field, z);
-  // Positions and momenta that are of a size leave the eigenvalues their digits.
+  // Positions and momenta of similar size preserve the digits of the eigenvalues.
   const Matrix<double> linear =
       in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);
   const double rate = matrix_eigenvalues("linear flow", linear).cwiseAbs().maxCoeff();

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t most_passages = 64;
 constexpr double refinement_tolerance = 1e-12;
 
-/// The smallest value on [0, h] of the cubic with these values and slopes at its ends; it falls at
-/// the start and rises at the end.
+/// The smallest value on [0, h] of the cubic with these values and slopes at its ends; the cubic
+/// falls at the start and rises at the end.
 double smallest_of_cubic(double h, double start, double start_slope, double end, double end_slope) {
   double smallest = std::min(start, end);
   constexpr int parts = 32;
@@ -103,7 +103,7 @@ void LowestPointSearch::refine(const Passage& passage) {
     const Point end = advanced(passage.start, passage.duration, direction);
     keep_lower(end);
     if (!(end.radial > 0)) {
-      // The run's own step is too coarse to end where the nominal does: look inside it.
+      // The run's own step is too coarse to end where the nominal does, so that it is divided.
       constexpr int parts = 16;
       Point inside = passage.start;
       for (int i = 1; i < parts; ++i) {
@@ -117,7 +117,7 @@ void LowestPointSearch::refine(const Passage& passage) {
       keep_lower(inside);
       return inside.radial;
     };
-    // The distance is stationary there, so that half the digits of the time are enough.
+    // The distance is stationary there, so that half the digits of the time suffice.
     root_between("lowest point", radial, {0, passage.start.radial}, {passage.duration, end.radial},
                  26);
   } catch (const Error& error) {

@@ -6,18 +6,19 @@
 
 namespace hamjet {
 
-/// Looks along an orbit's nominal for its smallest distance from the centre, between its points
-/// too. Momenta are taken as velocities.
+/// Finds the smallest distance of an orbit's nominal from the centre, also between its points.
+/// Momenta are taken as velocities.
 class LowestPointSearch {
  public:
   explicit LowestPointSearch(const ComputedProblem& problem) : problem_(problem) {}
 
-  /// Adds a point, the start first and every one in turn: time and components, canonical.
+  /// Adds a point; the points must come in order, beginning with the start. Time and components are
+  /// canonical.
   void record(double time, const std::vector<double>& state);
 
-  /// Follows the nominal down to where r.v changes sign from falling to rising, by integration from
-  /// the last point before. If there are more than 64 such passages, only those that are lowest by
-  /// interpolation are followed.
+  /// Follows the nominal to the places where r.v changes from negative to positive, by integration
+  /// from the last point before. If there are more than 64 such passages, only those that are
+  /// lowest by interpolation are followed.
   LowestPoint take();
 
  private:
@@ -25,13 +26,13 @@ class LowestPointSearch {
     double time = 0;
     std::vector<double> state;
     double distance = 0;
-    double radial = 0;  ///< r.v, positive where the distance grows with the time that passes
+    double radial = 0;  ///< r.v, positive if the distance grows with the time that passes
   };
   /// A step in which the distance stops falling.
   struct Passage {
     Point start;
     double duration = 0;
-    double estimate = 0;  ///< of the smallest squared distance
+    double estimate = 0;  ///< estimate of the smallest squared distance
   };
 
   Point point(double time, const std::vector<double>& state, double direction) const;
@@ -43,7 +44,7 @@ class LowestPointSearch {
   const ComputedProblem& problem_;
   Point last_;
   bool is_started_ = false;
-  double direction_ = 1;  ///< of the time
+  double direction_ = 1;  ///< direction of time
   std::vector<Passage> passages_;
   LowestPoint result_;
 };

@@ -36,8 +36,8 @@ void require_states(const Scene& scene, std::vector<std::vector<double>>& states
   }
 }
 
-/// The degrees of freedom that any of the states needs: the largest numbers of all are their
-/// nominal.
+/// The problem with the degrees of freedom that any of the states needs; as nominal it has the
+/// largest numbers of all states.
 ComputedProblem problem_of(const Scene& scene, const std::vector<std::vector<double>>& states) {
   Scene of_all = scene;
   std::fill(of_all.nominal.begin(), of_all.nominal.end(), 0);

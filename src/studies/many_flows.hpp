@@ -15,20 +15,20 @@ struct ManyFlows {
   Scene scene;
   ComputedProblem problem;
   IntegratorSettings settings;
-  std::vector<std::vector<double>> states;  ///< initial ones of the model, canonical
+  std::vector<std::vector<double>> states;  ///< initial states of the model, in canonical units
   std::vector<ManyFlowsOutcome> outcomes;   ///< jets of the problem's components
 
-  /// What a run of the scene from one of the states has of it: jet, nominal and statistics, without
-  /// checks, error estimate and kinds. Precondition: it has not failed.
+  /// The result of a run of the scene from one of the states: jet, nominal and statistics, without
+  /// checks, error estimate and kinds. Precondition: the orbit has not failed.
   PropagationResult result_of(std::size_t orbit) const;
 };
 
-/// Integrates from each of the states, numbers of the model in canonical units, or in km and km/s
-/// if `is_in_km`, in the place of the scene's own: with the scene's integrator of this label, or
-/// its first Gauss method where that is empty. Throws Error(usage) if there is none of this label,
-/// for states of another size, or in km of a model that has none; Error(scene) for an integrator
-/// that is no Gauss method, extended precision, and a scene in arcs or with a list of times; and as
-/// make_problem and integrate_gauss_many.
+/// Integrates from each of the states instead of the scene's own start. States are numbers of the
+/// model in canonical units or, if `is_in_km`, in km and km/s. The integrator is the one with this
+/// label or, if the label is empty, the scene's first Gauss method. Throws Error(usage) if no
+/// integrator has this label, for states of another size, or for km with a model that has none;
+/// Error(scene) for an integrator that is not a Gauss method, extended precision, and a scene in
+/// arcs or with a list of times; and as make_problem and integrate_gauss_many.
 ManyFlows study_many_flows(const Scene& scene, std::string_view label,
                            std::vector<std::vector<double>> states, bool is_in_km,
                            std::size_t threads, const ProgressCallback& progress);

@@ -12,8 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// The distance between the final positions of two nominals, which are the first components;
-/// canonical.
+/// The distance between the final positions of two nominals, in canonical units; positions are the
+/// first components.
 double position_distance(const FlowJet<Extended>& a, const FlowJet<Extended>& b,
                          std::size_t degrees_of_freedom) {
   Extended square = 0;
@@ -57,14 +57,15 @@ const std::vector<ExactnessResidual>* MapAnalysis::floor(const GeneratingFunctio
       place->second = exactness_residual(one_form(inversion), scales(kind));
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
-      // The kind does not exist for the true map: there is no rounding floor to state.
+      // The kind does not exist for the true map, so that there is no rounding floor to report.
       place->second.clear();
     }
   }
   return place->second.empty() ? nullptr : &place->second;
 }
 
-/// Composes the inverted map with the map; keeps the worst of all kinds for the self-check.
+/// Composes the inverted map with the map; keeps the worst result over all kinds for the
+/// self-check.
 void MapAnalysis::compose(RunResult& run, const PartialInversion<Extended>& inversion,
                           const std::string& requested) const {
   if (!run.inversion) run.inversion.emplace();

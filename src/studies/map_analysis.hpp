@@ -8,15 +8,15 @@
 namespace hamjet {
 
 /// Judges the jets of a scene's runs: symplecticity, error against the reference, and the
-/// generating functions that the scene asks for with their exactness. The rounding floors of
-/// exactness, which do not depend on the run, are computed once a kind.
+/// generating functions that the scene asks for, with their exactness. The rounding floors of
+/// exactness do not depend on the run and are computed once for each kind.
 class MapAnalysis {
  public:
   MapAnalysis(const Scene& scene, const ComputedProblem& problem,
               const std::optional<ReferenceResult>& reference)
       : scene_(scene), problem_(problem), reference_(reference) {}
 
-  /// Fills in all that the scene asks for; a kind that does not exist is marked in its result.
+  /// Computes all that the scene asks for; a kind that does not exist is marked in its result.
   void analyse(RunResult& run);
 
   /// Number of inversions of the reference's map so far.

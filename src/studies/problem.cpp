@@ -18,8 +18,8 @@ namespace {
 
 constexpr double megabyte = 1e6;
 
-/// To ask what memory is free takes as long as the integration of a small scene. What needs hardly
-/// more than the program itself is not asked for.
+/// Asking for the free memory takes as long as the integration of a small scene. Therefore no
+/// question is asked if hardly more memory than that of the program itself is needed.
 constexpr double always_there = 32 * megabyte;
 
 /// Bytes of the product schedules: pairs of blocks, see ProductSchedule.
@@ -50,7 +50,7 @@ DynamicalSystem make_system(const Scene& scene) {
 
 namespace {
 
-/// Bytes of one integration; in arcs the bytes of every thread, and the maps and starts of all
+/// Bytes of one integration; for arcs, the bytes of every thread, and the maps and starts of all
 /// arcs.
 double run_memory(const Scene& scene, const IntegratorSettings& settings,
                   const DynamicalSystem& system, std::size_t variables, std::size_t threads) {
@@ -108,7 +108,7 @@ double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::s
 
 namespace {
 
-/// A scene of a file has been checked when it was read; one made in C++ is checked here.
+/// A scene from a file was checked when it was read; one made in C++ is checked here.
 void require_good_integrators(const Scene& scene) {
   std::set<std::string> labels;
   for (const IntegratorSettings& settings : scene.integrators) {

@@ -71,7 +71,7 @@ void run_integrator(const Scene& scene, const ComputedProblem& problem, std::siz
   if (along_time) run.along_time = along_time->take(singular);
 }
 
-/// Judges one check of the scene; a value that was not computed has not passed.
+/// Judges one check of the scene; a value that was not computed fails the check.
 void check(RunResult& run, const char* key, std::optional<double> limit,
            std::optional<double> value) {
   if (!limit) return;
@@ -89,7 +89,7 @@ void check(RunResult& run, const std::optional<ReferenceResult>& reference) {
   std::optional<double> error;
   if (run.error_by_degree) {
     error = *std::max_element(run.error_by_degree->begin(), run.error_by_degree->end());
-    // An error counts as no smaller than the reference can vouch for.
+    // A measured error is not smaller than the smallest one that the reference can confirm.
     error = std::max(*error, reference->smallest_claimed_error());
   }
   std::optional<double> symplecticity;
@@ -114,7 +114,8 @@ void add_relative_hamiltonians(PropagationResult& result,
       [&](double time) { progress(time / scene.duration); });
 }
 
-/// Does one part of a scene, of which a numerical failure does not end the others.
+/// Does one part of the work for a scene; a numerical failure of this part does not stop the
+/// others.
 template <class Work>
 void record_failure(std::string& failure, const char* part, const Work& work) {
   try {

@@ -8,7 +8,7 @@
 
 namespace hamjet {
 
-/// A random direction; the standard library's distributions differ between implementations.
+/// A random direction. (The distributions of the standard library differ between implementations.)
 inline std::vector<double> random_direction(std::mt19937_64& generator, std::size_t dimension) {
   while (true) {
     std::vector<double> direction;

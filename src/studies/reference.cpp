@@ -31,7 +31,8 @@ FlowJet<Extended> integrate_in(const ComputedProblem& problem, double duration,
                                const GaussSettings& settings, IntegrationStatistics& statistics,
                                const std::function<void(double)>& observe) {
   FlowProblem<Real> flow{problem.system, problem.space, problem.variables, {}, Real(duration)};
-  // What judges the runs shares nothing with them that could be wrong in both.
+  // The reference must share nothing with the runs that it judges, because an error in a shared
+  // part would not show.
   flow.symmetry = FlowSymmetry::none;
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
   return convert_map<Extended>(integrate_gauss<Real>(
@@ -68,7 +69,7 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
   try {
     coarse = std::async(std::launch::async, run_coarse);
   } catch (const std::system_error&) {
-    // No thread can be had: the coarse run follows the fine one.
+    // No thread is available, so that the coarse run follows the fine one.
     coarse = std::async(std::launch::deferred, run_coarse);
   }
   try {

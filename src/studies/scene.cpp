@@ -45,7 +45,8 @@ std::vector<double> told_state(const Scene& scene, std::vector<double> state) {
 
 Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double duration, int order,
                  const CanonicalUnits& units) {
-  constexpr std::size_t most = 8;  // degrees of freedom that variable_names has names for
+  constexpr std::size_t most =
+      8;  // largest number of degrees of freedom for which variable_names has names
   const std::size_t n = system.degrees_of_freedom;
   if (n < 1 || n > most || nominal.size() != 2 * n) {
     throw Error(ErrorKind::usage,

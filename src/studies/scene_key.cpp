@@ -14,7 +14,7 @@
 namespace hamjet {
 namespace {
 
-/// Values as a text in which different values never look alike.
+/// Writes values as a text in which different values never look alike.
 class KeyText {
  public:
   template <class Value>
@@ -33,7 +33,7 @@ class KeyText {
   void write(Integer value) {
     text_ += fmt::format("{}", value);
   }
-  /// A text is written with its length, for it may hold anything.
+  /// A text is written with its length, because it may contain anything.
   void write(const std::string& value) { text_ += fmt::format("{}:{}", value.size(), value); }
   template <NamedEnumeration Enumeration>
   void write(Enumeration value) {
@@ -84,8 +84,8 @@ std::string operations_text(const OperationList& list) {
   return text;
 }
 
-/// A system as all that is integrated of it: a field or force may be written by hand, apart from
-/// the Hamiltonian.
+/// A system as all lists that are integrated: a field or force may be written by hand, separately
+/// from the Hamiltonian.
 std::string system_text(const DynamicalSystem& system) {
   std::string text = operations_text(system.hamiltonian) + "; " +
                      operations_text(system.vector_field) +
@@ -99,8 +99,8 @@ std::string system_text(const DynamicalSystem& system) {
 
 enum class KeyOf { reference, comparison };
 
-/// A member that is added to Scene does not compile here until it is named, and put into the key of
-/// what it determines.
+/// A new member of Scene does not compile here until it is named and added to the key of everything
+/// that it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
                duration, order, arcs, symmetry, coordinates, variables, jet_times, integrators,
@@ -108,7 +108,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                deputy, transfer, validity, assignment, uncertainty, bounded, event, output,
                ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
-  key.add("key", 6);  // version of this text, and of what is kept under it
+  key.add("key", 6);  // version of this text, and of the data that are kept under it
   key.add("reference stages", reference_stages);
   key.add("compared stages", compared_stages);
   key.add("looser by", looser_tolerance);
@@ -122,7 +122,8 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   key.add("duration", duration);
   key.add("order", jet_order);
   key.add("variables", variables);
-  // A comparison is of jets in positions and momenta, whatever a scene predicts deputies by.
+  // A comparison is about jets in positions and momenta, whichever coordinates a scene uses to
+  // predict deputies.
   static_cast<void>(coordinates);
   if (whose == KeyOf::reference) return key.text();
   key.add("version", std::string(version));

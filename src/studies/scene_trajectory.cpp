@@ -14,7 +14,7 @@
 namespace hamjet {
 namespace {
 
-/// A run may keep this much of its jets; between those that it keeps steps are taken again.
+/// The memory that a run may use for its jets; between the jets that are kept, steps are repeated.
 constexpr double most_bytes = 1e9;
 
 bool is_gauss(const IntegratorSettings& settings) {

@@ -23,7 +23,8 @@ using StateTransition = LinearFlow::StateTransition;
 template <int n>
 double signed_smallest(const Matrix<double>& block) {
   using Block = Eigen::Matrix<double, n, n>;
-  // The determinant is summed from products of up to the largest value's n-th power, rounded.
+  // The determinant is a sum of products of size up to the n-th power of the largest value, with
+  // rounding.
   constexpr double certain = 1e-12;
   const Block matrix(block);
   const auto values = Eigen::JacobiSVD<Block>(matrix).singularValues().eval();
@@ -47,8 +48,9 @@ double watched_value(const StateTransition& flow, const GeneratingFunctionKind& 
   return value / flow.norm();
 }
 
-/// Size of watched_value that rounding leaves at a zero, at a time where the flow's matrix is
-/// `flow`: an ulp in each checkpoint's matrix M_s, carried on to that time by M M_s^-1, adds up to
+/// The value of watched_value that rounding leaves at a zero, at a time where the flow's matrix is
+/// `flow`. An ulp in the matrix M_s of each checkpoint, carried to that time by M M_s^-1, adds up
+/// to
 ///
 ///   u sqrt( sum over s of |M M_s^-1|^2 |M_s|^2 ) / |M| ,
 ///
@@ -60,19 +62,20 @@ double rounding_of_zero(const LinearFlow& whole, double time, const StateTransit
   double sum = flow.squaredNorm();
   for (std::size_t s = stride; s < before; s += stride) {
     const StateTransition& matrix = whole.checkpoint(s);
-    // M M_s^-1 and M J M_s^T have one norm, for J turns rows and signs alone.
+    // M M_s^-1 and M J M_s^T have the same norm, because J only exchanges rows and changes signs.
     const StateTransition turned = symplectic_unit_times(StateTransition(matrix.transpose()));
     sum += static_cast<double>(stride) * (flow * turned).squaredNorm() * matrix.squaredNorm();
   }
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) / flow.norm();
 }
 
-/// Looks for the zeros of one kind's watched_value.
+/// Searches the zeros of one kind's watched_value.
 class ZeroSearch {
  public:
   ZeroSearch(const LinearFlow& flow, const GeneratingFunctionKind& kind)
       : flow_(flow), kind_(kind) {
-    // At the start every block is trivially singular or the identity.
+    // At the start every block is trivially singular or the identity, so that the search begins
+    // after it.
     for (std::size_t i = 1; i < flow.times().size(); ++i) {
       times_.push_back(flow.times()[i]);
       ratios_.push_back(watched_value(flow.checkpoint(i), kind));
@@ -98,16 +101,18 @@ class ZeroSearch {
  private:
   double time(std::size_t i) const { return times_[i]; }
 
-  /// Whether the line through the points `from` and `to` has passed zero one step further on.
+  /// Whether the line through the points `from` and `to` reaches zero within one further step.
   bool leads_to_zero(std::size_t from, std::size_t to) const {
     return (2 * ratios_[to] - ratios_[from]) * ratios_[to] < 0;
   }
 
-  /// Divides the intervals about a change of sign or a minimum: several zeros may lie close.
+  /// Divides the intervals about a change of sign or a minimum, because several zeros may lie close
+  /// together.
   void divide(std::size_t parts) {
-    std::vector<bool> is_divided(ratios_.size(), false);  // the interval behind each point
+    std::vector<bool> is_divided(ratios_.size(),
+                                 false);  // whether to divide the interval after each point
     for (std::size_t i = 0; i + 1 < ratios_.size(); ++i) {
-      // A zero may also lie where the trend of either side leads to zero before the next point.
+      // A zero may also lie where the trend from either side reaches zero before the next point.
       const bool has_zero = ratios_[i] * ratios_[i + 1] < 0 || (i > 0 && leads_to_zero(i - 1, i)) ||
                             (i + 2 < ratios_.size() && leads_to_zero(i + 2, i + 1));
       if (!has_zero && !(i > 0 && is_minimum(i))) continue;
@@ -130,7 +135,7 @@ class ZeroSearch {
     ratios_ = std::move(ratios);
   }
 
-  /// Two zeros that rounding cannot tell apart are one, at their middle.
+  /// Merges two zeros that rounding cannot distinguish into one, at their middle.
   void merge() {
     std::vector<SingularTime> merged;
     for (SingularTime& zero : found_) {
@@ -148,7 +153,7 @@ class ZeroSearch {
 
   double ratio_at(double t) const { return watched_value(flow_.at(t), kind_); }
 
-  /// SingularTime::resolution: doubled until both sides differ from zero.
+  /// SingularTime::resolution: it is doubled until the function differs from zero on both sides.
   double resolution_at(double t, double rounding) const {
     const double longest = std::abs(times_.back()) / static_cast<double>(times_.size());
     double half_width = 16 * std::numeric_limits<double>::epsilon() * std::abs(t);
@@ -166,9 +171,9 @@ class ZeroSearch {
            std::abs(here) < std::abs(ratios_[i + 1]) && may_reach_zero(i);
   }
 
-  /// The lines through the two points on either side bound a convex function from below: where they
-  /// meet well above zero, so does it, unless the point is the zero. A factor of two stands for
-  /// what is not convex.
+  /// The lines through the two points on either side bound a convex function from below. If they
+  /// meet well above zero, so does the function, unless the point itself is the zero. A factor of
+  /// two allows for deviations from convexity.
   bool may_reach_zero(std::size_t i) const {
     if (i < 2 || i + 2 >= ratios_.size()) return true;
     const auto size = [&](std::size_t k) { return std::abs(ratios_[k]); };
@@ -184,8 +189,8 @@ class ZeroSearch {
            size(i) < 0.25 * std::min(size(i - 1), size(i + 1));
   }
 
-  /// Golden sections of the magnitude until it changes sign, which shows a pair of zeros, or has
-  /// nowhere to go.
+  /// Golden sections of the magnitude, until the function changes sign, which shows a pair of
+  /// zeros, or the interval is exhausted.
   void search_minimum(std::size_t i) {
     const double golden = 0.5 * (3 - std::sqrt(5.0));
     const double sign = ratios_[i] > 0 ? 1 : -1;
@@ -211,7 +216,8 @@ class ZeroSearch {
         (is_right_longer ? right : left) = trial;
       }
     }
-    // Beside a zero that is passed with a slope on either side the rounding of the time shows too.
+    // Beside a zero that the function crosses with a slope, the rounding of the time shows on both
+    // sides.
     const double slope = std::max(std::abs(ratios_[i - 1] / (middle - time(i - 1))),
                                   std::abs(ratios_[i + 1] / (time(i + 1) - middle)));
     if (lowest <= rounding_of_zero(flow_, middle, flow_.at(middle)) + resolution * slope)
@@ -235,11 +241,12 @@ class ZeroSearch {
     SingularTime zero{kind_, t};
     const double rounding = rounding_of_zero(flow_, t, matrix);
     zero.resolution = resolution_at(t, rounding);
-    // A double zero is found where the smaller value vanishes, a little off that of the larger one.
+    // A double zero is found where the smaller value vanishes, slightly beside the zero of the
+    // larger one.
     constexpr double roundings = 4;
     zero.directions_lost = std::max(
         1, static_cast<int>((values.array() <= roundings * rounding * matrix.norm()).count()));
-    // With one degree of freedom the block's own size says nothing: the flow's size stands for it.
+    // With one degree of freedom the block's own size is no scale; the flow's size replaces it.
     const double largest = last > 0 ? values[0] : matrix.norm();
     zero.smallest_ratio = values[last] / largest;
     zero.second_ratio = last > 0 ? values[last - 1] / largest : 0;

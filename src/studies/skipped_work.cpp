@@ -25,7 +25,7 @@ bool contains(const std::vector<std::size_t>& list, std::size_t value) {
   return std::find(list.begin(), list.end(), value) != list.end();
 }
 
-/// Zonal coefficients that are absent, those above all others in one entry.
+/// Adds zonal coefficients that are absent; those above all others form one entry.
 void add_zonals(const ZonalCoefficients& J, std::vector<SkippedWork>& skipped) {
   constexpr int last = ZonalCoefficients::highest;
   const std::string why = "the scene has none: no term of the force";
@@ -33,7 +33,7 @@ void add_zonals(const ZonalCoefficients& J, std::vector<SkippedWork>& skipped) {
   const int alone = std::max(highest, 3);
   for (int n = ZonalCoefficients::lowest; n <= alone; ++n) {
     if (J[n] != 0) continue;
-    // The recursion leaves no degree out.
+    // The recursion cannot skip a degree.
     const std::string passed =
         n < highest ? fmt::format(", but J{} needs the steps through its degree", highest) : "";
     skipped.push_back({fmt::format("J{}", n), why + passed});
@@ -68,7 +68,7 @@ void add_dynamics(const PropagationResult& result, std::vector<SkippedWork>& ski
   }
 }
 
-/// The labels of the runs that left out a symmetry for which `is_meant` holds.
+/// The labels of the runs that left out a symmetry that satisfies `is_meant`.
 template <class IsMeant>
 std::vector<std::string> labels_of(const PropagationResult& result, const IsMeant& is_meant) {
   std::vector<std::string> labels;
@@ -78,7 +78,7 @@ std::vector<std::string> labels_of(const PropagationResult& result, const IsMean
   return labels;
 }
 
-/// What a shift in time that was left out and put back has cost a run in exactness.
+/// The loss of exactness of a run through a shift in time that was left out and put back.
 std::string cost_of_time_shift(const RunResult& run) {
   if (run.time_shift_difference.empty()) return "what that costs was not measured";
   std::vector<std::string> numbers;

@@ -4,7 +4,7 @@
 
 namespace hamjet {
 
-/// Adds the time of its life to a sum of seconds.
+/// Adds the duration of its lifetime to a sum of seconds.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}

@@ -6,8 +6,8 @@
 
 namespace hamjet {
 
-/// Points along a trajectory of unknown length. When there are too many every second one is
-/// dropped, so that a million steps fit too; the last one always stays.
+/// Points along a trajectory of unknown length. If there are too many, every second one is dropped,
+/// so that a million steps fit too; the last point always stays.
 template <class Point, std::size_t LargestSize = 20001>
 class ThinnedList {
  public:

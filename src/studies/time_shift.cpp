@@ -24,7 +24,7 @@ std::vector<double> time_shift_difference(const FlowProblem<Real>& flow, const F
   try {
     return lines.relative_difference(lines.restrict(jet), lines.integrate(along_line));
   } catch (const Error& error) {
-    // The jet is there all the same.
+    // The jet itself is complete.
     if (error.kind() != ErrorKind::numerical) throw;
     return {};
   }

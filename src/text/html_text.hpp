@@ -7,7 +7,7 @@
 
 namespace hamjet::io {
 
-/// A text as HTML or XML shows it literally, in elements and in attributes.
+/// Escapes a text so that HTML and XML show it literally, in elements and in attributes.
 std::string escape_html(std::string_view text);
 
 }  // namespace hamjet::io

@@ -5,7 +5,7 @@
 
 namespace hamjet::io {
 
-/// The text with its letters of ASCII in capitals; all other characters stay.
+/// The text with its ASCII letters in capitals; all other characters stay.
 inline std::string capitals(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -13,7 +13,7 @@ inline std::string capitals(std::string text) {
   return text;
 }
 
-/// The same in small letters.
+/// The text with its ASCII letters in small letters; all other characters stay.
 inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;

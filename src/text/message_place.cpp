@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::string_view separator = ": ";
 
-/// Takes `:number` off the front of the text; no value, and nothing taken, where there is none.
+/// Takes `:number` off the front of the text. Where the text does not begin so, nothing is taken
+/// and there is no value.
 std::optional<std::size_t> take_number(std::string_view& text) {
   if (!text.starts_with(':')) return std::nullopt;
   const std::size_t end = std::min(text.find(':', 1), text.size());
@@ -17,7 +18,7 @@ std::optional<std::size_t> take_number(std::string_view& text) {
   return number;
 }
 
-/// Takes the name of a file, with line and column if they are there, off the front of the text.
+/// Takes the name of a file off the front of the text, with line and column if these follow.
 void take_file(std::string_view& text, std::string_view file, PlacedMessage& result) {
   const std::string_view head = text.substr(0, text.find(separator));
   const std::string_view name =
@@ -25,7 +26,7 @@ void take_file(std::string_view& text, std::string_view file, PlacedMessage& res
   std::string_view rest = text.substr(name.size());
   const auto line = take_number(rest);
   const auto column = take_number(rest);
-  // Without a line only the scene's name is known for that of a file.
+  // A name without a line is taken for a file only if it is the name of the scene.
   if (!rest.starts_with(separator) || (!line && name != file)) return;
   result.file = std::string(name);
   result.line = line;

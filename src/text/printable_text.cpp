@@ -14,7 +14,8 @@ struct CodeRange {
   char32_t last;
 };
 
-/// The categories Cc and Cf of Unicode 15.1, and the separators of lines and paragraphs; ascending.
+/// The characters of Unicode 15.1 in the categories Cc and Cf, and the separators of lines and
+/// paragraphs, in ascending order.
 constexpr CodeRange unprintable[] = {
     {0x0, 0x1f},        {0x7f, 0x9f},       {0xad, 0xad},       {0x600, 0x605},
     {0x61c, 0x61c},     {0x6dd, 0x6dd},     {0x70f, 0x70f},     {0x890, 0x891},
@@ -27,7 +28,7 @@ static_assert(std::is_sorted(std::begin(unprintable), std::end(unprintable),
                                return one.last < next.first;
                              }));
 
-/// The character of one well-formed UTF-8 sequence.
+/// The character that a well-formed UTF-8 sequence encodes.
 char32_t character(std::string_view sequence) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(sequence[i]); };
   if (sequence.size() == 1) return byte(0);
@@ -44,7 +45,8 @@ bool is_unprintable(std::string_view sequence) {
   return range != std::end(unprintable) && code >= range->first;
 }
 
-/// The sequence at the beginning of a text; a byte that is not UTF-8 alone.
+/// The UTF-8 sequence at the beginning of a text, or its first byte alone where that byte is not
+/// UTF-8.
 std::string_view next_sequence(std::string_view text) {
   return text.substr(0, std::max<std::size_t>(utf8_sequence_length(text), 1));
 }
@@ -59,7 +61,7 @@ std::string escaped(std::string_view sequence) {
   return result;
 }
 
-/// As strings of JSON have it: in UTF-16.
+/// Writes the sequence as escapes of a JSON string, which are in UTF-16.
 std::string escaped_in_json(std::string_view sequence) {
   char32_t code = character(sequence);
   if (code < 0x10000) return fmt::format("\\u{:04x}", static_cast<std::uint32_t>(code));
@@ -105,7 +107,8 @@ std::string printable_json(std::string_view json) {
   std::string result;
   while (!json.empty()) {
     const std::string_view sequence = next_sequence(json);
-    // Line ends between values are those of the layout; in strings they are escaped already.
+    // Line ends between the values of a JSON text are layout and stay; inside strings they are
+    // escaped already.
     if (sequence == "\n" || !is_escaped(sequence)) {
       result += sequence;
     } else {

@@ -10,14 +10,14 @@
 namespace hamjet {
 namespace {
 
-/// The value as it is shown with so many significant digits.
+/// The value rounded to this number of significant digits.
 double rounded_to(double value, int digits) {
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value)) + 1e-12) + 1 - digits);
   return std::round(value / unit) * unit;
 }
 
-/// A value as three digits and the prefix that leaves one to three of them before the point. Below
-/// the smallest prefix, where a length says that it is zero but for rounding, it has an exponent.
+/// A value as three digits and the prefix that leaves one to three of them before the point. A
+/// value below the smallest prefix has an exponent: there a length is zero but for rounding.
 std::string prefixed(double value, std::string_view unit) {
   static constexpr const char* prefixes[] = {"p", "n", "μ", "m", "", "k", "M", "G", "T"};
   if (value == 0 || !std::isfinite(value)) return fmt::format("{:g} {}", value, unit);
@@ -28,7 +28,8 @@ std::string prefixed(double value, std::string_view unit) {
                      unit);
 }
 
-/// A number with a comma before every three digits of its whole part, from five digits on.
+/// The number with a comma before every three digits of its whole part, if that has five digits or
+/// more.
 std::string grouped(std::string number) {
   const std::size_t first = number.starts_with('-') ? 1 : 0;
   const std::size_t end = std::min(number.find('.'), number.size());

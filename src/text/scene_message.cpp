@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view override_prefix = "--set ";
 
-/// Room for the longest label and what stands around it in a key.
+/// The longest key that is shown: it has room for the longest label and the characters around the
+/// label.
 constexpr std::size_t longest_shown_key = 200;
 
 /// Damerau's distance in its restricted form: insertions, deletions, substitutions and swaps of
@@ -50,15 +51,15 @@ std::vector<std::string_view> name_parts(std::string_view name) {
   return words;
 }
 
-/// Whether at least half of the letters of a name are those of the candidate.
+/// Whether at least half of the letters of a name are also letters of the candidate.
 bool is_half_right(std::string_view name, std::string_view candidate) {
   return 2 * edit_distance(name, candidate) <= std::max(name.size(), candidate.size());
 }
 
-/// Whether one name can be a slip of the other: half of the letters of each of its words are right.
-/// In names of quantities one letter more or less of a short word is another quantity or another
-/// unit (ma_deg and ta_deg, a_m and a_km), and so is another digit (J2 and J20): these must be
-/// right in full.
+/// Whether one name can be a misspelling of the other: half of the letters of each of its words are
+/// right. In names of quantities, one letter more or less in a short word makes another quantity or
+/// another unit (ma_deg and ta_deg, a_m and a_km), and so does another digit (J2 and J20): short
+/// words and digits must therefore be right in full.
 bool is_slip(std::string_view name, std::string_view candidate, std::size_t distance) {
   constexpr std::size_t longest_symbol = 2;
   const std::size_t length = std::max(name.size(), candidate.size());
@@ -76,8 +77,8 @@ bool is_slip(std::string_view name, std::string_view candidate, std::size_t dist
   return true;
 }
 
-/// Keys that scenes of other programs have, and what takes their place here. The nearest key would
-/// be other physics.
+/// Keys that scenes of other programs have, and the keys that replace them here. Without this list
+/// the nearest key would be suggested, which has another physical meaning.
 struct ForeignKeys {
   std::string_view table;
   std::vector<std::string_view> names;
@@ -116,7 +117,7 @@ const std::vector<ForeignKeys>& foreign_keys() {
   return keys;
 }
 
-/// Whether the dotted path `outer` leads to `inner`, or is the same.
+/// Whether the dotted path `outer` leads to `inner`, or equals it.
 bool is_path_to(std::string_view outer, std::string_view inner) {
   return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '.');
 }

@@ -4,7 +4,7 @@
 
 namespace hamjet::io {
 
-/// A word as a shell takes it literally.
+/// A word quoted so that a shell takes it literally.
 inline std::string in_shell_quotes(const std::string& word) {
   constexpr const char* plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=:,+@%";

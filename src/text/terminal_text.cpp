@@ -12,12 +12,13 @@ namespace {
 using Row = std::vector<std::string>;
 
 constexpr std::string_view blanks_between = "  ";
-/// A value further to the right is not one that its continuation stands under.
+/// Where a value begins further to the right than this, the lines that continue it are not aligned
+/// with the value.
 constexpr std::size_t furthest_value = 28;
-/// The first column of a table takes no more, so that the others have room.
+/// The greatest width of a table's first column, so that the other columns have room.
 constexpr std::size_t widest_label = 34;
 
-/// The bytes of a line before the first word that its continuation stands under.
+/// The number of bytes of a line before the word under which continuation lines begin.
 std::size_t head_size(std::string_view line) {
   const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
   const std::size_t gap = line.find(blanks_between, begin);
@@ -26,7 +27,7 @@ std::size_t head_size(std::string_view line) {
   return value <= furthest_value ? value : begin;
 }
 
-/// The bytes of the first word; a number and its unit are one.
+/// The number of bytes of the first word; a number and its unit count as one word.
 std::size_t word_size(std::string_view line) {
   constexpr std::size_t longest_unit = 3;
   const std::size_t size = std::min(line.find(' '), line.size());
@@ -62,14 +63,14 @@ void append_fitted(std::string_view line, std::size_t width, std::string& text) 
   }
 }
 
-/// The bytes at the beginning of a text that take so many places.
+/// The number of bytes at the beginning of a text that fill this many places.
 std::size_t bytes_of(std::string_view text, std::size_t places) {
   std::size_t end = 0;
   while (end < text.size() && text_width(text.substr(0, end + 1)) <= places) ++end;
   return end;
 }
 
-/// The text without its middle where it takes too many places.
+/// The text, with its middle left out where it takes too many places.
 std::string shortened(const std::string& text, std::size_t places) {
   const std::size_t all = text_width(text);
   if (all <= places) return text;
@@ -82,7 +83,7 @@ std::string in_first_column(const std::string& text, std::size_t width) {
   return text + std::string(width - text_width(text), ' ');
 }
 
-/// A table of the first column and those from `first` to before `last`.
+/// The table of the first column and of the columns `first` to `last` - 1.
 std::string part_of_table(const std::vector<Row>& rows, const std::vector<std::size_t>& widths,
                           std::size_t first, std::size_t last) {
   std::string text;
@@ -97,7 +98,7 @@ std::string part_of_table(const std::vector<Row>& rows, const std::vector<std::s
   return text;
 }
 
-/// The rows without the columns that were not computed, all of the same length.
+/// The rows, all of the same length, without the columns that were not computed.
 std::vector<Row> shown_cells(const std::vector<Row>& rows) {
   std::vector<Row> shown(rows.size());
   for (std::size_t c = 0; c < rows[0].size(); ++c) {

@@ -2,9 +2,10 @@
 
 namespace hamjet::io {
 
-/// The unit of an axis or a column of times: minutes or hours where seconds would be long numbers.
+/// The unit of an axis or a column of times: minutes or hours where the numbers in seconds would be
+/// long.
 struct TimeAxis {
-  double seconds;    ///< in one unit
+  double seconds;    ///< seconds in one unit
   const char* name;  ///< as in "transfer time (h)"
 };
 TimeAxis time_axis(double longest_s);

@@ -7,7 +7,8 @@
 
 namespace hamjet::io {
 
-/// The whole text as a number, as std::from_chars takes it, if it is one.
+/// The number that the whole text spells, in the form that std::from_chars reads; no value for
+/// other text.
 template <class Number>
 std::optional<Number> whole_number(std::string_view text) {
   Number number{};

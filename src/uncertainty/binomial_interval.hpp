@@ -5,8 +5,8 @@
 
 namespace hamjet {
 
-/// The interval of Clopper and Pearson, of a confidence, for the probability of which there were so
-/// many hits. Source: C. J. Clopper and E. S. Pearson, Biometrika 26 (1934) 404.
+/// The interval of Clopper and Pearson for a probability, from the number of hits among the
+/// samples. Source: C. J. Clopper and E. S. Pearson, Biometrika 26 (1934) 404.
 inline std::pair<double, double> binomial_interval(long samples, long hits, double confidence) {
   using Binomial = boost::math::binomial_distribution<double>;
   const double tail = (1 - confidence) / 2;

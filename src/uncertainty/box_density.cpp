@@ -11,23 +11,25 @@ namespace {
 
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
-/// The share of what a box may hold at most that is added to what was seen of it, so that no point
+/// The fraction of the bound of a box's mass that is added to the mass seen in it, so that no point
 /// has a weight of more than a hundred.
 constexpr double share_of_bound = 0.01;
-/// The same where none of the points sees anything, as of grazing entries at the edge of boxes in
-/// which all others leave.
+/// This fraction for a box in which none of the points sees a positive density, as for grazing
+/// entries at the edge of boxes in which all other paths leave.
 constexpr double share_of_unseen = 0.25;
-/// How much further things are taken to spread in a box than is seen. At 1 probabilities of slow
-/// encounters come out too low by up to 1e-2, at 2 and 4 by no more than their standard errors.
+/// Quantities are assumed to spread in a box by this factor more than is seen. With 1,
+/// probabilities of slow encounters come out too low by up to 1e-2, with 2 and 4 by no more than
+/// their standard errors.
 constexpr double spread_factor = 2;
-/// Boxes are fine enough where no more than this part of the whole may be missed: weights then
+/// Boxes are fine enough if at most this fraction of the whole mass may be missed; the weights then
 /// differ by some hundredths.
 constexpr double fine_enough = 0.03;
-/// Slopes of a logarithm across a box are taken as no larger: the exponential is at its end then.
+/// Slopes of a logarithm across a box are limited to this number, at which the exponential is
+/// already negligible at the other end.
 constexpr double steepest_slope = 20;
 constexpr double level_slope = 1e-6;
 
-/// A number in [0, 1) of the density in proportion to exp(slope u), of a uniform one.
+/// A number in [0, 1) with a density proportional to exp(slope u), made from a uniform number.
 double tilted(double uniform, double slope) {
   if (std::abs(slope) < level_slope) return uniform;
   return std::clamp(std::log1p(uniform * std::expm1(slope)) / slope, 0.0, 1.0);
@@ -65,7 +67,7 @@ double BoxDensity::Node::log_mass() const {
 }
 
 BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
-  // Gauss's points of two in each dimension, and the centre.
+  // Gauss's quadrature points, two in each dimension, and the centre.
   std::array<NormalFactor, 9> factors{};
   for (std::size_t k = 0; k < 9; ++k) {
     std::array<double, 3> point{};
@@ -89,9 +91,9 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
     amplitude = std::max(amplitude, factor.log_amplitude);
   }
   if (largest == nothing) return node;
-  // Along a diagonal, of which Gauss's points are at 1 / sqrt(3) of the way to the corners: a
-  // quadratic function of differences d from point to point, and dd between them and the centre,
-  // changes by sqrt(3) d + 3 dd.
+  // The largest change along a diagonal. Gauss's points are at 1 / sqrt(3) of the way from the
+  // centre to the corners. A quadratic function that differs by d between the points, and by dd
+  // between these and the centre, changes by sqrt(3) d + 3 dd.
   const auto at_corner = [](double d, double dd) {
     return spread_factor * (std::numbers::sqrt3 * d + 3 * dd);
   };
@@ -114,7 +116,7 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   const double nearest = std::max(0.0, norm(centre.white) - spread);
   if (centre.speed) amplitude += log_mean_positive(*centre.speed + speeds);
   const double bound = std::max(largest, amplitude - nearest * nearest / 2);
-  // Of a fast entry the factor is the speed itself, whose logarithm changes little.
+  // For a fast entry the factor is the speed itself, whose logarithm changes little.
   const double change_of_factor =
       centre.speed ? log_mean_positive(*centre.speed + speeds) -
                          log_mean_positive(*centre.speed - std::min(speeds, 10.0))
@@ -123,7 +125,7 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   for (const NormalFactor& factor : factors) mean += std::exp(factor.log_value() - bound) / 9;
   node.log_mean = bound + std::log(mean);
   node.log_even = bound + std::log(mean > 0 ? share_of_bound : share_of_unseen);
-  // Halved across the direction in which the density changes most.
+  // The box is halved across the direction in which the density changes most.
   double steepest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
     std::array<double, 3> difference{};
@@ -144,7 +146,7 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
       node.dimension = static_cast<int>(i);
     }
   }
-  // A logarithm that is taken as linear misses what is of the second order.
+  // Taking the logarithm as linear misses the terms of second order.
   const double second = std::pow(spread + change_of_factor, 2);
   node.priority = bound + std::log(box.volume()) + std::log(std::min(1.0, second) + 1e-9);
   return node;

@@ -19,8 +19,9 @@ struct Box {
 /// The logarithm of E[x^+], x normal of mean a and variance 1: log(phi(a) + a Phi(a)).
 double log_mean_positive(double a);
 
-/// A density at a point: exp(log_amplitude - |white|^2 / 2) E[(speed + x)^+], x standard normal,
-/// the last factor only where there is a speed. Amplitude, `white` and speed are smooth.
+/// A density at a point: exp(log_amplitude - |white|^2 / 2) E[(speed + x)^+] with x standard
+/// normal. The last factor is absent if there is no speed. Amplitude, `white` and speed are smooth
+/// functions of the point.
 struct NormalFactor {
   double log_amplitude;
   std::array<double, 3> white;
@@ -33,43 +34,44 @@ struct NormalFactor {
 };
 
 /// A density that is a product of three exponential functions on each of many boxes, made to follow
-/// a given one: boxes are halved where most may be lost by taking its logarithm as linear. How
-/// large it may be within a box is told by what is smooth in it, also where the density itself is a
-/// narrow peak between the points at which it is looked at; a share of that is added, the same
-/// throughout the box. Points drawn from it, with the ratio of the two densities as weight, give
-/// integrals over the given one without any error but that of the sample.
+/// a given density. A box is halved where taking the logarithm of the given density as linear may
+/// lose most. A bound of the density within a box follows from the smooth functions that it is made
+/// of, even where the density itself is a narrow peak between the points at which it is evaluated;
+/// a fraction of this bound is added throughout the box. Points drawn from the boxes, weighted with
+/// the ratio of the two densities, give integrals over the given density without any error but that
+/// of sampling.
 class BoxDensity {
  public:
   using Density = std::function<NormalFactor(const std::array<double, 3>&)>;
 
-  /// The boxes must be apart from each other, and ascending in their first coordinate. They are
-  /// halved until little is lost, or there are `most` of them. Those in which the density vanishes
-  /// are left out.
+  /// The boxes must not overlap, and must ascend in their first coordinate. They are halved until
+  /// little is lost, or until there are `most` of them. Boxes in which the density vanishes are
+  /// left out.
   BoxDensity(const std::vector<Box>& boxes, const Density& density, std::size_t most);
 
-  /// Nothing but zero was seen of the density.
+  /// Whether the density was zero at all points.
   bool is_empty() const { return leaves_.empty(); }
-  /// The logarithm of the integral, as the boxes have it.
+  /// The logarithm of the density's integral, according to the boxes.
   double log_mass() const { return log_mass_; }
-  /// The point of five uniform numbers in [0, 1).
+  /// The point that belongs to five uniform numbers in [0, 1).
   std::array<double, 3> point(const std::array<double, 5>& uniform) const;
-  /// The logarithm of this density, whose integral is 1, at a point; none outside all boxes.
+  /// The logarithm of this density, whose integral is 1, at a point; no value outside all boxes.
   std::optional<double> log_density(const std::array<double, 3>& point) const;
 
  private:
   struct Node {
     Box box;
-    double log_even = 0;            ///< of the share of the bound, the same throughout
-    double log_mean = 0;            ///< of the density itself
-    std::array<double, 3> slope{};  ///< of its logarithm, across the whole box
-    double priority = 0;            ///< log of the bound on what is missed
-    std::size_t first_child = 0;    ///< 0: a leaf
-    int dimension = 0;              ///< along which it is, or would be, halved
+    double log_even = 0;  ///< logarithm of the added fraction of the bound, which is constant
+    double log_mean = 0;  ///< logarithm of the mean of the density
+    std::array<double, 3> slope{};  ///< slope of the density's logarithm across the whole box
+    double priority = 0;            ///< logarithm of the bound on the mass that is missed
+    std::size_t first_child = 0;    ///< 0 marks a leaf
+    int dimension = 0;              ///< dimension along which the box is, or would be, halved
 
     double log_mass() const;
   };
   static Node made(const Box& box, const Density& density);
-  /// Whether further boxes would gain little.
+  /// Whether further halving would gain little.
   bool is_fine() const;
 
   std::vector<Node> nodes_;

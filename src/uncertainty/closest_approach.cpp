@@ -16,17 +16,18 @@
 namespace hamjet {
 namespace {
 
-/// Longer series in twelve variables take seconds to multiply: 18564 terms at order 6.
+/// The highest order: longer series in twelve variables (18564 terms at order 6) take seconds to
+/// multiply.
 constexpr int highest_order = 6;
 
 /// Times in the window at which the distance of the means has a minimum.
 std::vector<double> minima_of(const EncounterTrajectories& means) {
   const std::vector<double> times = means.times_of_looks();
   std::vector<double> minima;
-  double before = 0;  // no minimum is at the first look
+  double before = 0;  // no minimum is found at the first look
   for (std::size_t k = 0; k < times.size(); ++k) {
     const double rate = means.approach_rate(times[k]);
-    // No change of sign would show a minimum beside what is no number.
+    // With NaN, no change of sign would show a minimum.
     if (!std::isfinite(rate)) {
       throw Error(ErrorKind::numerical,
                   "closest approach: the distance of the means is not finite");
@@ -42,7 +43,7 @@ std::vector<double> minima_of(const EncounterTrajectories& means) {
   return minima;
 }
 
-/// The state of a spacecraft at a time as series in the twelve numbers.
+/// The state of a spacecraft at a time, as series in the twelve numbers.
 SixNumbers<Series<double>> state_series(const EncounterProblem& problem, const FlowJet<double>& jet,
                                         std::size_t craft, const SpacePointer& space) {
   std::vector<Series<double>> deviations;
@@ -73,7 +74,8 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
   const auto product = [](const std::vector<Series<double>>& z, std::size_t a, std::size_t b) {
     return z[a] * z[b] + z[a + 1] * z[b + 1] + z[a + 2] * z[b + 2];
   };
-  // Newton's method with the derivative of the means, d(rho.v)/dt: a degree an iteration.
+  // Newton's method with the derivative of the means, d(rho.v)/dt: each iteration makes one more
+  // degree right.
   const double slope = means.approach_rate_slope(time);
   if (!(slope > 0)) {
     throw Error(ErrorKind::numerical,

@@ -41,8 +41,8 @@ Judgement judge_path(const RelativePaths& paths, const SampledPath& path, double
   };
   Judgement result;
   const bool of_larger = has_event(radius + error);
-  // To be nearer than less is to be nearer than more. An entry of a path that begins inside the
-  // larger sphere alone is none of that.
+  // A path that is nearer than the smaller radius is also nearer than the larger one. For entries
+  // this does not follow: a path may begin inside the larger sphere alone.
   if (!of_larger && event == CollisionEvent::nearer) return result;
   result.first = first_event(paths, path, radius, event);
   const bool of_smaller = has_event(radius - error);

@@ -12,15 +12,15 @@ namespace hamjet {
 void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
                       SampledPath& path);
 
-/// When a path first has what counts as a collision, if it ever has.
+/// The time at which a path first counts as a collision; no value if it never does.
 std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
                                   double radius, CollisionEvent event);
 
-/// What is known of a path whose distances are right to an error.
+/// The judgement of a path whose distances have a known error.
 struct Judgement {
-  std::optional<double> first;  ///< when it first has the event, as it is told
-  bool is_sure = false;         ///< it has it for a radius that is smaller by the error, too
-  bool is_possible = false;     ///< it has it for one that is larger
+  std::optional<double> first;  ///< time of the first event, with the distances as computed
+  bool is_sure = false;      ///< the event also happens with a radius that is smaller by the error
+  bool is_possible = false;  ///< the event happens with a radius that is larger by the error
 };
 Judgement judge_path(const RelativePaths& paths, const SampledPath& path, double radius,
                      double error, CollisionEvent event);

@@ -19,28 +19,29 @@
 namespace hamjet {
 namespace {
 
-/// The cubics between nodes are right to this part of the radius.
+/// The cubics between nodes are accurate to this fraction of the radius.
 constexpr double path_accuracy = 1e-5;
-/// Blocks of samples in a task.
+/// The number of blocks of samples in a task.
 constexpr std::size_t blocks_in_task = 64;
-/// Every so many blocks the lower order is evaluated too.
+/// The lower order is also evaluated in one of this many blocks.
 constexpr std::size_t lower_order_every = 8;
-/// The sampled sphere is wider than the collision's by this part of the radius at least, and by so
-/// many times the largest excess seen.
+/// The sampled sphere is wider than the collision radius by at least this fraction of the radius,
+/// and by at least this multiple of the largest difference seen.
 constexpr double narrowest_margin = 1e-5;
 constexpr double margin_factor = 1.5;
-/// Draws below this part of the mean weight hold no more than this part of the probability.
+/// Draws whose weight is below this fraction of the mean weight hold no more than this fraction of
+/// the probability.
 constexpr double negligible_weight = 1e-4;
-/// Spheres wider than this, in radii, hold too few collisions for what they cost.
+/// Spheres wider than this, in radii, contain too few collisions for their cost.
 constexpr double widest_sphere = 20;
-/// A relative standard error as if fewer than a hundred draws had all of the weight: such draws say
-/// nothing of what they have missed.
+/// The relative standard error that fewer than a hundred draws with all of the weight would have:
+/// such draws say nothing of the collisions that they have missed.
 constexpr double few_draws = 0.1;
 constexpr std::size_t pilot_blocks = 32;
-/// Flights of those draws that come nearest to the radius.
+/// The number of draws that are flown: those that come nearest to the radius.
 constexpr std::size_t flown_draws = 64;
-/// Plain draws reach some four standard deviations, what may be left out begins at nine: quadratic
-/// terms grow by the square of it.
+/// Plain draws reach some four standard deviations, and paths that are left out begin at nine;
+/// quadratic terms grow by the square of the ratio.
 constexpr double growth_to_farthest = 6;
 constexpr std::size_t time_count = 200;
 
@@ -48,9 +49,9 @@ constexpr std::size_t time_count = 200;
 struct Sums {
   long samples = 0;
   Hits hits;
-  Hits sure;          ///< of a radius that is smaller by the error of the paths
-  Hits possible;      ///< and larger
-  long compared = 0;  ///< with the lower order
+  Hits sure;          ///< hits with a radius that is smaller by the error of the paths
+  Hits possible;      ///< hits with a radius that is larger by the error of the paths
+  long compared = 0;  ///< number of samples evaluated with the lower order too
   double change = 0;
   double change_squared = 0;
   std::vector<double> by_time = std::vector<double>(time_count, 0.0);
@@ -67,7 +68,7 @@ struct Sums {
   }
 };
 
-/// A block of samples: their deviations, a structure of arrays, and weights.
+/// A block of samples: their deviations, as a structure of arrays, and their weights.
 struct Block {
   std::vector<double> points = std::vector<double>(encounter_variables * samples_in_block);
   std::vector<double> weights = std::vector<double>(samples_in_block);
@@ -79,19 +80,23 @@ class Estimate {
            const RelativePaths& paths)
       : problem_(&problem), settings_(&settings), paths_(&paths) {}
 
-  /// Draws entries of a sphere from now on. Returns false where too little is known of it.
+  /// Switches to drawing entries of a sphere. Returns false where too little is known of the
+  /// sphere.
   bool sample_entries();
   CollisionProbability result();
 
  private:
   void draw(RandomStream& random, Block& samples) const;
-  /// Adds the first `count` of a block.
+  /// Adds the first `count` samples of a block to the sums.
   void judge(const Block& samples, std::size_t count, bool with_lower_order, Sums& sums) const;
-  /// Of least distances of the pilot's paths, from those of linear paths.
+  /// The largest difference between the least distances of the pilot's paths and those of their
+  /// linear paths.
   double largest_difference() const;
-  /// Of least distances, from those of flights, as far as it can matter to the radius.
+  /// The largest difference between least distances and those of flights, as far as it can matter
+  /// to the radius.
   double flight_difference() const;
-  /// A block of random numbers of its own, and the least distances of its paths.
+  /// Draws a block of random numbers that is not part of the samples, and computes the least
+  /// distances of its paths.
   void draw_pilot(RandomStream& random, Block& samples, std::vector<double>& least) const;
 
   const EncounterProblem* problem_;
@@ -99,7 +104,7 @@ class Estimate {
   const RelativePaths* paths_;
   std::optional<EntrySampler> sampler_;
   double difference_ = 0;
-  double error_ = 0;  ///< of the distances of a path
+  double error_ = 0;  ///< error of the distances of a path
 };
 
 void Estimate::draw(RandomStream& random, Block& samples) const {
@@ -110,8 +115,8 @@ void Estimate::draw(RandomStream& random, Block& samples) const {
     if (sampler_) {
       deviation = sampler_->draw(random);
       take_linear_path(*paths_, deviation, path);
-      // A path that touches the sphere to within rounding may be seen to pass by: it counts for
-      // nothing, being of no probability.
+      // A path that touches the sphere to within rounding may be computed as passing by. It then
+      // counts for nothing; such paths have probability zero.
       const auto ratio = sampler_->log_density_ratio(path);
       samples.weights[j] = ratio ? std::exp(-*ratio) : 0;
     } else {
@@ -175,7 +180,7 @@ double Estimate::largest_difference() const {
   Block samples;
   SampledPath path(paths_->times().size());
   std::vector<double> least;
-  std::vector<std::pair<double, double>> differences;  // and weights
+  std::vector<std::pair<double, double>> differences;  // largest differences, and weights
   double sum = 0;
   for (std::size_t k = 0; k < pilot_blocks; ++k) {
     draw_pilot(random, samples, least);
@@ -186,7 +191,7 @@ double Estimate::largest_difference() const {
       sum += samples.weights[j];
     }
   }
-  // Draws of no weight, from corners of the boxes, say nothing of collisions.
+  // Draws of negligible weight, from corners of the boxes, say nothing of collisions.
   double largest = 0;
   for (const auto& [difference, weight] : differences) {
     if (weight > negligible_weight * sum / static_cast<double>(differences.size())) {
@@ -231,9 +236,9 @@ double Estimate::flight_difference() const {
 }
 
 bool Estimate::sample_entries() {
-  // Collisions whose linear path stays outside the sphere are lost: it is made wider until the
-  // differences of its own paths do not bridge the margin. Where no linear path enters it, those of
-  // plain samples say how far others are from these.
+  // Collisions whose linear path stays outside the sphere are lost. The sphere is therefore widened
+  // until the differences of its own paths are smaller than the margin. Where no linear path enters
+  // the sphere, plain samples show how far true paths are from linear ones.
   const bool is_of_entries = settings_->event == CollisionEvent::entry;
   const double difference_of_plain =
       paths_->arcs().empty() ? 0 : growth_to_farthest * largest_difference();
@@ -353,12 +358,13 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
   Estimate estimate(problem, settings, paths);
   if (settings.sampling == CollisionSampling::plain) return estimate.result();
   const bool must_enter = settings.sampling == CollisionSampling::entries;
-  std::string reason;  // why not by entries
+  std::string reason;  // reason why entries are not drawn
   try {
     if (estimate.sample_entries()) {
       const CollisionProbability result = estimate.result();
       if (result.samples == 0) return result;
-      // Weights of probable collisions may tell less than plain samples do.
+      // If the weights of probable collisions vary much, entries may tell less than plain samples
+      // do.
       const bool is_worse = result.equivalent_samples < static_cast<double>(result.samples);
       const bool is_told_by_few = !(result.standard_error < few_draws * result.probability);
       if (!is_told_by_few && (must_enter || !is_worse)) return result;

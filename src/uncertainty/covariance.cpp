@@ -18,7 +18,7 @@ namespace {
 constexpr int fewest_digits = 4;
 constexpr int most_digits = 15;
 
-/// The decimal digits that a number needs to be read back.
+/// The number of decimal digits that are needed to read a number back.
 int digits_of(double number) {
   std::array<char, 40> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(number),
@@ -28,7 +28,7 @@ int digits_of(double number) {
   return static_cast<int>(mantissa.size() - (mantissa.find('.') != mantissa.npos ? 1 : 0));
 }
 
-/// By how much the matrix's numbers may be rounded, as a share of themselves.
+/// The relative error by which the matrix's numbers may be rounded.
 double rounding_of_digits(const Matrix<double>& matrix) {
   int digits = fewest_digits;
   for (Eigen::Index i = 0; i < matrix.size(); ++i) {
@@ -46,10 +46,10 @@ struct Spectrum {
   Vector<double> deviations;  ///< standard deviations
   Vector<double> values;      ///< eigenvalues of the correlations, ascending
   Matrix<double> vectors;
-  double allowance = 0;  ///< an eigenvalue of minus this is rounding
+  double allowance = 0;  ///< an eigenvalue down to minus this is rounding
 };
 
-/// The correlations' eigenvalues. A component without variance has no correlations, and its
+/// The eigenvalues of the correlations. A component without variance has no correlations, and its
 /// eigenvalue is zero.
 Spectrum spectrum_of(const Matrix<double>& matrix) {
   const Eigen::Index n = matrix.rows();
@@ -71,8 +71,8 @@ Spectrum spectrum_of(const Matrix<double>& matrix) {
   return result;
 }
 
-/// A direction in words, each component in units of its standard deviation; what is below a tenth
-/// of the largest is left out.
+/// A direction in words, with each component in units of its standard deviation. Components below a
+/// tenth of the largest are left out.
 std::string direction_text(const Vector<double>& direction,
                            const std::array<std::string_view, 6>& names) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(direction.size()));
@@ -125,7 +125,8 @@ std::optional<std::string> Covariance::fault_of(const Matrix<double>& matrix,
       const double below = matrix(i, j);
       const double above = matrix(j, i);
       const double spread = deviations[i] * deviations[j];
-      // Either is rounded to the digits; a sum that made it, to those of the product of both.
+      // Each of the two numbers is rounded to its digits, or, if a sum made it, to the rounding of
+      // the terms of that sum.
       const double allowed =
           rounding * (std::abs(below) + std::abs(above)) +
           4 * static_cast<double>(n) * std::numeric_limits<double>::epsilon() * spread;
@@ -161,7 +162,8 @@ Covariance::Covariance(const Matrix<double>& matrix, const std::array<std::strin
   }
   const Spectrum spectrum = spectrum_of(matrix);
   const Eigen::Index n = matrix.rows();
-  // What the decomposition itself rounds: eigenvalues to n units of the largest.
+  // The rounding of the decomposition itself: eigenvalues are right to n units of rounding of the
+  // largest.
   const double least = static_cast<double>(n) * std::numeric_limits<double>::epsilon() *
                        std::max(spectrum.values[n - 1], 0.0);
   Eigen::Index rank = 0;

@@ -10,9 +10,10 @@
 namespace hamjet {
 namespace {
 
-/// Parts of an interval are told apart to this: a millionth of a second in half an hour.
+/// Parts of an interval shorter than this are not distinguished: a millionth of a second in half an
+/// hour.
 constexpr double shortest_part = 1e-9;
-/// Halvings until a part is as short.
+/// The number of halvings until a part is as short as that.
 constexpr int deepest = 30;
 
 double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -56,7 +57,7 @@ SquaredDistance::SquaredDistance(const std::array<double, 6>& start,
         (2 * dot(b1, b3) + 3 * dot(b2, b2)) / 5,
         dot(b2, b3),
         dot(b3, b3)};
-  // What is no number would be nowhere within a distance.
+  // With NaN, no distance would be below the square.
   if (!std::isfinite(std::accumulate(c_.begin(), c_.end(), 0.0))) {
     throw Error(ErrorKind::numerical, "encounter: the path of a spacecraft is not finite");
   }
@@ -91,7 +92,8 @@ void SquaredDistance::entries(double square, std::vector<double>& parts) const {
 
 void SquaredDistance::entries(double square, double from, double to,
                               std::vector<double>& parts) const {
-  // No more roots than changes of sign among the coefficients, and of the same parity (Descartes).
+  // By Descartes' rule there are no more roots than changes of sign among the coefficients, and
+  // their number has the same parity.
   int changes = 0;
   for (std::size_t i = 0; i + 1 < 7; ++i) changes += (c_[i] < square) != (c_[i + 1] < square);
   if (changes == 0) return;
@@ -112,14 +114,15 @@ void SquaredDistance::entries(double square, double from, double to,
 double SquaredDistance::least(double best) const { return least(best, 0); }
 
 double SquaredDistance::least(double best, int depth) const {
-  // Where the arc passes the origin itself, squares are rounding to both sides of zero.
+  // Where the arc passes through the origin itself, the squares are rounding errors of either sign.
   best = std::max(std::min({best, c_[0], c_[6]}), 0.0);
   const double bound = lower_bound();
   double largest = 0;
   for (const double c : c_) largest = std::max(largest, std::abs(c));
   if (best - bound <= 1e-12 * best + 1e-15 * largest || depth == deepest) return best;
   const auto [left, right] = halves();
-  // The half that promises less goes first.
+  // The half with the higher lower bound is put aside, so that the more promising one is searched
+  // first.
   return left.lower_bound() < right.lower_bound()
              ? right.least(left.least(best, depth + 1), depth + 1)
              : left.least(right.least(best, depth + 1), depth + 1);

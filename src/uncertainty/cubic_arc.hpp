@@ -8,28 +8,29 @@
 
 namespace hamjet {
 
-/// The cubic between two linear states, an interval of a length apart.
+/// The cubic arc between two linear states that are an interval of this length apart.
 LinearRelativeState between(const LinearRelativeState& start, const LinearRelativeState& end,
                             double length, double part);
 
-/// The square of the distance along a cubic arc, a polynomial of degree 6 in the part of the
-/// interval. Between its coefficients in Bernstein's basis it stays, of which all is told.
+/// The square of the distance along a cubic arc: a polynomial of degree 6 in the fraction of the
+/// interval. It stays between the least and the greatest of its coefficients in Bernstein's basis,
+/// from which all bounds below follow.
 class SquaredDistance {
  public:
-  /// Of positions and velocities (three numbers each) at both ends of an interval of a length.
+  /// The positions and velocities (three numbers each) at both ends of an interval of a length.
   SquaredDistance(const std::array<double, 6>& start, const std::array<double, 6>& end,
                   double length);
 
-  /// At the start.
+  /// The value at the start.
   double first() const { return c_[0]; }
-  /// Below which it nowhere is.
+  /// A bound below which the square of the distance nowhere falls.
   double lower_bound() const;
 
-  /// Puts the parts of the interval at which it falls below a square, which it passes there, behind
-  /// the list.
+  /// Appends to the list the fractions of the interval at which the squared distance falls through
+  /// this square.
   void entries(double square, std::vector<double>& parts) const;
-  /// The least value in the interval, not below 0; where nothing is below `best`, that. To a part
-  /// of 1e-12 of it, or 1e-15 of the largest.
+  /// The least value in the interval, not below 0, or `best` where nothing is below `best`. It is
+  /// accurate to 1e-12 of itself, or 1e-15 of the largest value.
   double least(double best) const;
 
   double at(double part) const;

@@ -8,11 +8,11 @@
 namespace hamjet {
 namespace {
 
-/// Standard deviations along the relative velocity within which a time is in a passage: what lies
-/// outside has a probability of 6e-7.
+/// A time is in a passage if it is within this many standard deviations along the relative
+/// velocity; what lies outside has a probability of 6e-7.
 constexpr double within = 5;
-/// A passage that takes this part of a local period, or is slower than this part of the speed of
-/// the circle there, is none.
+/// An encounter that takes longer than this fraction of a local period, or is slower than this
+/// fraction of the speed on the circle there, does not count as a passage.
 constexpr double longest_part = 1.0 / 32;
 constexpr double slowest_part = 0.02;
 

@@ -6,20 +6,21 @@
 
 namespace hamjet {
 
-/// The problem with a window that holds the whole of the passages that its edges cut; none where
-/// they cut none. The states of a conjunction data message are those of the closest approach
-/// itself, so that a window from them on has half of the passage; a whole one begins before the
-/// epoch.
+/// The problem with a window that contains the whole of the passages that its edges cut; no value
+/// where they cut none. The states of a conjunction data message are those at the closest approach
+/// itself, so that a window that starts there contains half of the passage; the whole passage
+/// begins before the epoch.
 ///
-/// On the straight line through the mean relative state at an edge the closest approach comes
+/// On the straight line through the mean relative state at an edge, the closest approach comes
+/// later by
+///   tau = -rho.v / |v|^2 ,
 ///
-///   tau = -rho.v / |v|^2
-///
-/// later, and they pass within (radius + s) / |v| of it to each side, s so many standard deviations
-/// of the position along v: an edge is in a passage for s of five, and the whole one goes to nine.
-/// Only what passes at a 50th of the orbital speed or more, in less than a 32nd of a local period,
-/// and comes near the radius within nine standard deviations is a passage: others keep company.
-/// Throws as validate and integrate_gauss.
+/// and the passage takes (radius + s) / |v| to each side, where s is some number of standard
+/// deviations of the position along v. An edge is in a passage if it is so for five standard
+/// deviations, and the window is extended to nine. Only an encounter at a 50th of the orbital speed
+/// or more that takes less than a 32nd of a local period and comes near the radius within nine
+/// standard deviations counts as a passage; slower pairs keep company. Throws as validate and
+/// integrate_gauss.
 std::optional<EncounterProblem> with_whole_passages(const EncounterProblem& problem);
 
 }  // namespace hamjet

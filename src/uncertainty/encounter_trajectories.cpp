@@ -87,8 +87,8 @@ double EncounterTrajectories::approach_rate(double time) const {
 }
 
 double EncounterTrajectories::approach_rate_slope(double time) const {
-  // The relative velocity's derivative by a difference over a small part of the orbit: it is what
-  // Newton's method divides by, not a result.
+  // The relative acceleration by a difference over a small part of the orbit. Newton's method
+  // divides by it; it is not a result.
   const double step = period(0) * 1e-6;
   return (approach_rate(time + step) - approach_rate(time - step)) / (2 * step);
 }
@@ -147,7 +147,7 @@ std::vector<double> EncounterTrajectories::times_of_looks(double per_period, dou
                       "window; a shorter window is needed",
                       most_looks));
     }
-    // The last step is not a sliver.
+    // The last step takes the remainder too, so that it is never a sliver.
     const bool is_last = now + 1.5 * step > to_;
     times.push_back(is_last ? to_ : now + step);
   }

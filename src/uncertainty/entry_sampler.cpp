@@ -16,23 +16,24 @@ namespace hamjet {
 namespace {
 
 constexpr double whole_turn = 2 * std::numbers::pi;
-/// Standard deviations below this part of the radius make entries a sheet too thin for boxes.
+/// Below this fraction of the radius, standard deviations make the set of entries too thin a sheet
+/// for boxes.
 constexpr double narrowest = 0.01;
-/// Conditions whose rows depend on each other to this part are one.
+/// Conditions whose rows depend on each other to this fraction count as one condition.
 constexpr double dependent = 1e-6;
-/// The most boxes: a tenth of a second.
+/// The largest number of boxes, which take a tenth of a second.
 constexpr std::size_t box_count = 100000;
 
-/// A number x > 0 of the density in proportion to x exp(-(x - a)^2 / 2), by rejection.
+/// A number x > 0 with a density proportional to x exp(-(x - a)^2 / 2), by rejection.
 double draw_entry_speed(double a, RandomStream& random) {
   while (true) {
     if (a > -1) {
-      // About the mode m, log x is below its tangent: a normal number about it is an envelope.
+      // log x lies below its tangent at the mode m, so that a normal density is an envelope.
       const double mode = (a + std::sqrt(a * a + 4)) / 2;
       const double x = mode + random.normal();
       if (x > 0 && random.uniform() < x / mode * std::exp(1 - x / mode)) return x;
     } else {
-      // The sum of two exponential numbers of rate -a.
+      // The proposal is the sum of two exponential numbers of rate -a.
       const double x = std::log((1 - random.uniform()) * (1 - random.uniform())) / a;
       if (random.uniform() < std::exp(-x * x / 2)) return x;
     }
@@ -53,11 +54,12 @@ RandomStream::RandomStream(std::uint64_t seed, std::uint64_t stream) {
   engine_.seed(sequence);
 }
 
-/// The relative state at one time: mean and covariance, of which the position's is factorised.
+/// The relative state at one time: mean and covariance, with the covariance of the position
+/// factorised.
 struct EntrySampler::AtTime {
   Eigen::Matrix<double, 6, 1> mean;
-  Eigen::Matrix3d lower;     ///< of the position's covariance
-  Eigen::Matrix3d share;     ///< lower^-1 of position's covariance with velocity
+  Eigen::Matrix3d lower;     ///< Cholesky factor of the position's covariance
+  Eigen::Matrix3d share;     ///< lower^-1 times the covariance of position with velocity
   Eigen::Matrix3d velocity;  ///< covariance of the velocity
   double log_amplitude = 0;
 };
@@ -65,7 +67,7 @@ struct EntrySampler::AtTime {
 /// All that belongs to an entry at one time in one direction.
 struct EntrySampler::Entry {
   Eigen::Vector3d normal;
-  double mean_speed = 0;  ///< of entry, on the condition of the position
+  double mean_speed = 0;  ///< mean speed of entry, given the position
   double deviation_of_speed = 0;
   NormalFactor density;  ///< f
 };
@@ -104,7 +106,7 @@ EntrySampler::Entry EntrySampler::entry(const AtTime& state, double latitude,
 }
 
 BoxDensity::Density EntrySampler::entering() const {
-  // Most boxes are halved across directions, so that their times come again and again.
+  // Most boxes are halved across directions, so that the same times come again and again.
   const auto known = std::make_shared<std::unordered_map<double, AtTime>>();
   return [this, known](const std::array<double, 3>& point) {
     auto place = known->find(point[0]);
@@ -129,8 +131,8 @@ NormalFactor EntrySampler::inside(const std::array<double, 3>& point) const {
 }
 
 std::vector<Box> EntrySampler::boxes() const {
-  // Times at which the mean moves by no more than the sphere and the uncertainty are wide; those
-  // that are far from the sphere are left out.
+  // The first boxes: in the interval between two times the mean moves by no more than the width of
+  // sphere and uncertainty together. Intervals that stay far from the sphere are left out.
   std::vector<Box> boxes;
   const std::vector<double>& times = paths_->times();
   for (const std::size_t node : paths_->arcs()) {
@@ -180,7 +182,8 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
   if (!is_empty()) {
     const double entering = std::exp(entering_.log_mass() - largest);
     share_entering_ = entering / (entering + std::exp(inside_.log_mass() - largest));
-    // Few of them come back, and each does so with a weight that its share makes.
+    // Few of these paths come back, and each one that does has a weight in which this share is
+    // divided out.
     constexpr double share_of_late = 0.05;
     if (begin_counts_late && !entering_.is_empty()) {
       share_entering_ = std::max(share_entering_, 1 - share_of_late);
@@ -212,8 +215,8 @@ EncounterDeviation EntrySampler::draw(RandomStream& random) const {
   }
   EncounterDeviation deviation;
   for (Eigen::Index i = 0; i < deviation.size(); ++i) deviation[i] = random.normal();
-  // The normal density on linear conditions: the nearest deviation that meets them. The conditions
-  // are of different units, so that each is scaled.
+  // The normal density on linear conditions is that of the nearest deviation that meets them. The
+  // conditions have different units, so that each is scaled.
   const Eigen::Index count = enters ? 4 : 3;
   Eigen::Matrix<double, 4, 1> scale = conditions.rowwise().norm();
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -223,8 +226,8 @@ EncounterDeviation EntrySampler::draw(RandomStream& random) const {
   const auto b = conditions.topRows(count);
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1> missing =
       wanted.head(count) - b * deviation;
-  // Where the position tells the velocity, as of states whose velocity is known exactly, the fourth
-  // condition follows from the others and must not be divided by.
+  // Where the position determines the velocity, as for states whose velocity is known exactly, the
+  // fourth condition follows from the others, and dividing by it must be avoided.
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, Eigen::Dynamic, 12, 0, 4, 12>>
       solver;
   solver.setThreshold(dependent);
@@ -237,7 +240,7 @@ std::optional<double> EntrySampler::log_density_ratio(
     std::span<const std::array<double, 6>> states) const {
   const std::vector<double>& times = paths_->times();
   const double square = radius_ * radius_;
-  double sum = 0, largest = 0;  // of terms exp(log - largest)
+  double sum = 0, largest = 0;  // sum of the terms exp(log - largest)
   bool any = false;
   const auto add = [&](double log_term) {
     if (!any || log_term > largest) {

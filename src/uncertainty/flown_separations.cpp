@@ -12,13 +12,13 @@
 namespace hamjet {
 namespace {
 
-/// An expansion of order 24 reaches a part of a revolution; it is looked at so often.
+/// The number of looks at an expansion of order 24, which reaches a part of a revolution.
 constexpr int looks_in_step = 16;
 constexpr std::size_t pairs_at_once = TaylorFlow::lanes / 2;
-/// A step that is shorter than this part of the window runs into a collision.
+/// A step shorter than this fraction of the window means that the flight runs into the centre.
 constexpr double least_part = 1e-9;
 
-/// Of a pair at a time: the squared distance, and rho.v, which is half of its derivative.
+/// A pair at a time: the squared distance, and rho.v, which is half of its derivative.
 struct Look {
   double square = 0;
   double rate = 0;
@@ -42,7 +42,7 @@ class Pairs {
     std::vector<double> least(count_, std::numeric_limits<double>::infinity());
     std::vector<double> left(count_, problem_->to - problem_->from);
     while (std::any_of(left.begin(), left.end(), [](double time) { return time > 0; })) {
-      // Lanes without a state of their own repeat the first, so that they are finite.
+      // Lanes without a state of their own repeat the first one, so that their numbers are finite.
       for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
         flow_.set_state(lane, state(lane < 2 * count_ ? lane : 0));
       }
@@ -71,7 +71,7 @@ class Pairs {
     return result;
   }
 
-  /// Goes on as far as the expansions of both reach, and returns how far that was.
+  /// Advances as far as the expansions of both spacecraft reach, and returns the time advanced.
   double advance(std::size_t pair, double left, double& least) {
     const double step = std::min({flow_.reach(2 * pair), flow_.reach(2 * pair + 1), left});
     if (!(step > least_part * (problem_->to - problem_->from))) {
@@ -87,8 +87,8 @@ class Pairs {
       const Look after = look(pair, to);
       least = std::min(least, after.square);
       if (before.rate < 0 && after.rate > 0) {
-        // The distance is flat at its least: half of the digits of the time are enough, and any
-        // time of the bracket is one of the flight.
+        // The distance is flat at its minimum: half of the digits of the time suffice, and any time
+        // of the bracket lies on the flight.
         constexpr int bits = 40;
         const double time = root_between(
             "encounter", [&](double at) { return look(pair, at).rate; }, {from, before.rate},
@@ -104,7 +104,7 @@ class Pairs {
   const EncounterProblem* problem_;
   TaylorFlow flow_;
   std::size_t count_;
-  std::vector<double> states_;  ///< of each pair both, six numbers each
+  std::vector<double> states_;  ///< for each pair both states, six numbers each
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ double sum_of_squares(const std::vector<double>& numbers) {
   return sum;
 }
 
-/// 0 for what rounding has made negative; what is no number stays.
+/// 0 where rounding has made the number negative; NaN stays.
 double not_negative(double number) { return number < 0 ? 0 : number; }
 
 }  // namespace
@@ -48,8 +48,9 @@ std::optional<double> Cumulants::log_volume() const {
 }
 
 double Cumulants::negentropy() const {
-  // What follows the leading terms is some times their square: below this they are right to a
-  // thousandth, and lose no digits as the difference of two logarithms does.
+  // The terms after the leading ones are about the square of these. Below this limit the leading
+  // terms are right to a thousandth, and unlike the difference of two logarithms they lose no
+  // digits.
   constexpr double small = 1e-4;
   const double leading = sum_of_squares(third_) / 12 + sum_of_squares(fourth_) / 48;
   if (leading < small || !gaussian_log_volume_) return leading;
@@ -64,7 +65,7 @@ double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& 
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (distribution.rank() != gaussian.rank()) return infinite;
   if (gaussian.rank() == 0) return distribution.mean() == gaussian.mean() ? 0 : infinite;
-  // In units of the Gaussian's own standard deviations.
+  // The difference is measured in the Gaussian's own standard deviations.
   const Vector<double> deviations = gaussian.standard_deviations();
   const Vector<double> shift = distribution.mean() - gaussian.mean();
   Matrix<double> rows(gaussian.size(), gaussian.rank());
@@ -76,7 +77,7 @@ double divergence_from_gaussian(const Cumulants& distribution, const Cumulants& 
     others.row(i) << shift[i], distribution.axes().row(i);
     others.row(i) /= is_still ? 1 : deviations[i];
   }
-  // Columns of `rows` are orthogonal, so that its left inverse needs no solution.
+  // The rows are orthogonal, so that the left inverse needs no linear system.
   const Vector<double> squares = rows.colwise().squaredNorm();
   const Matrix<double> inside = squares.cwiseInverse().asDiagonal() * (rows.transpose() * others);
   const double outside = (others - rows * inside).norm();

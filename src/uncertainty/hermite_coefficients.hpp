@@ -8,16 +8,17 @@
 
 #include "hamjet/detail/algebra/matrix.hpp"
 
-// Polynomials of independent standard normal variables in Hermite polynomials, which are orthogonal
-// under their distribution.
+// Polynomials of independent standard normal variables, written in Hermite polynomials, which are
+// orthogonal under the normal distribution.
 
 namespace hamjet {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The place of monomials of degree 0..M in v variables, by sums that products add up: with
-/// s_i = a_1 + ... + a_i it is the sum over i of C(s_i + i - 1, i), which counts every exponent
-/// vector once (the combinatorial number system).
+/// The place of each monomial of degree 0..M in v variables, computed from partial sums of
+/// exponents, which add up in products. With s_i = a_1 + ... + a_i the place is the sum over i of
+/// C(s_i + i - 1, i), which numbers all exponent vectors without gaps (the combinatorial number
+/// system).
 class MonomialPlaces {
  public:
   MonomialPlaces(std::size_t variables, int most)
@@ -32,7 +33,7 @@ class MonomialPlaces {
 
   std::size_t count() const { return table_.back().back(); }
 
-  /// The place of the product of two monomials of these sums.
+  /// The place of the product of two monomials with these partial sums.
   std::size_t operator()(const std::uint8_t* a, const std::uint8_t* b) const {
     std::size_t place = 0;
     for (std::size_t i = 0; i < table_.size(); ++i) {
@@ -45,7 +46,7 @@ class MonomialPlaces {
   std::vector<std::vector<std::size_t>> table_;
 };
 
-/// Exponents and their sums of all monomials, in the order of their places.
+/// The exponents of all monomials and their partial sums, in the order of the places.
 struct Monomials {
   std::size_t variables = 0;
   std::vector<std::uint8_t> sums;
@@ -57,7 +58,7 @@ struct Monomials {
   }
 };
 
-/// All of degree up to M, the last sum, that is the degree, growing slowest.
+/// All monomials up to degree M; the last partial sum, which is the degree, grows slowest.
 inline Monomials all_monomials(const MonomialPlaces& places, std::size_t variables, int most) {
   Monomials result{variables, std::vector<std::uint8_t>(places.count() * variables)};
   std::vector<std::uint8_t> sums(variables, 0);
@@ -66,7 +67,7 @@ inline Monomials all_monomials(const MonomialPlaces& places, std::size_t variabl
     std::copy(sums.begin(), sums.end(),
               result.sums.begin() +
                   static_cast<std::ptrdiff_t>(places(sums.data(), zero.data()) * variables));
-    // The next sequence of sums that do not fall.
+    // The next nondecreasing sequence of partial sums.
     std::size_t i = 0;
     while (i + 1 < variables && sums[i] == sums[i + 1]) ++i;
     if (i + 1 == variables && sums[i] == most) return result;
@@ -75,8 +76,8 @@ inline Monomials all_monomials(const MonomialPlaces& places, std::size_t variabl
   }
 }
 
-/// Turns columns of coefficients of monomials (rows by place) into those of the orthonormal
-/// polynomials He_a / sqrt(a!), by one variable after the other:
+/// Converts columns of coefficients of monomials (rows by place) into coefficients of the
+/// orthonormal polynomials He_a / sqrt(a!), one variable after the other:
 ///
 ///   x^n = sum over k of n! / (2^k k! (n - 2k)!) He_(n-2k) .
 inline void to_hermite(const MonomialPlaces& places, const Monomials& monomials, int most,
@@ -95,7 +96,8 @@ inline void to_hermite(const MonomialPlaces& places, const Monomials& monomials,
   std::vector<std::uint8_t> raised(monomials.variables);
   const std::vector<std::uint8_t> zero(monomials.variables, 0);
   for (std::size_t i = 0; i < monomials.variables; ++i) {
-    // Places grow with every exponent, so that what is added has not been turned yet.
+    // Places grow with every exponent, so that a place to which something is added is always
+    // converted later.
     for (std::size_t place = 0; place < count; ++place) {
       const std::uint8_t* sums = monomials.of(place);
       const auto n = static_cast<std::size_t>(monomials.exponent(place, i));

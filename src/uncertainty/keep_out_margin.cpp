@@ -19,15 +19,15 @@ namespace {
 using Position = Eigen::Vector3d;
 using Jacobian = Eigen::Matrix<double, 3, 12>;
 
-/// So many of the lowest minima of the linear theory's length are followed by the polynomials.
+/// The number of the lowest minima of the linear theory's length that the polynomials follow.
 constexpr std::size_t most_minima = 6;
 constexpr int most_iterations = 60;
-/// An expansion in time reaches a part of a revolution; it is looked at so often.
+/// The number of looks at an expansion in time, which reaches a part of a revolution.
 constexpr std::size_t looks_in_expansion = 16;
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The shortest xi with |a + M xi| <= 1; none where none is. With M = U S V^T and b = U^T a, of the
-/// multiplier l it is V eta, eta_i = -l s_i b_i / (1 + l s_i^2), where
+/// The shortest xi with |a + M xi| <= 1; no value if there is none. With M = U S V^T and b = U^T a,
+/// the solution for the multiplier l is V eta with eta_i = -l s_i b_i / (1 + l s_i^2), where
 ///
 ///   sum b_i^2 / (1 + l s_i^2)^2 = 1 .
 std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m) {
@@ -43,7 +43,7 @@ std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m)
     return sum;
   };
   if (excess(0) <= 0) return EncounterDeviation(EncounterDeviation::Zero());
-  // Directions below the rounding of the others reach nothing.
+  // Directions whose singular value is below the rounding of the others cannot be used.
   const double least = 1e-13 * s[0];
   double rest = 0;
   for (Eigen::Index i = 0; i < 3; ++i) rest += s[i] > least ? 0 : b[i] * b[i];
@@ -62,7 +62,8 @@ std::optional<EncounterDeviation> shortest(const Position& a, const Jacobian& m)
   return EncounterDeviation(parts.matrixV() * eta);
 }
 
-/// The relative position in the ellipsoid's own measure, and its derivatives by the twelve numbers.
+/// The relative position in units of the ellipsoid's semi-axes, and its derivatives by the twelve
+/// numbers.
 struct Measured {
   Position position;
   Jacobian slope;
@@ -73,7 +74,7 @@ class Ellipsoid {
   Ellipsoid(const EncounterProblem& problem, const Eigen::Vector3d& semi_axes)
       : problem_(&problem), semi_axes_(semi_axes), trajectories_(problem) {}
 
-  /// From inertial axes, with the axes of the first spacecraft's mean.
+  /// The matrix from inertial axes into this measure, for the axes of the first spacecraft's mean.
   Eigen::Matrix3d measure(std::span<const double> state) const {
     const ChiefFrame frame(state, {}, RelativeFrame::rtn_inertial);
     Eigen::Matrix3d result;
@@ -83,8 +84,9 @@ class Ellipsoid {
     return result;
   }
 
-  /// By the shortest vector at one time, from one nearby that `xi` has; infinity where none leads
-  /// there. Throws where the iteration does not settle.
+  /// The length of the shortest vector at one time. The iteration starts at `xi`, from a time
+  /// nearby, and leaves the vector there. Infinity where no vector leads to the ellipsoid. Throws
+  /// where the iteration does not settle.
   double length_at(double time, EncounterDeviation& xi) const {
     const std::array<FlowJet<double>, 2> jets = {trajectories_.jet(0, time),
                                                  trajectories_.jet(1, time)};
@@ -93,7 +95,7 @@ class Ellipsoid {
       const auto next = shortest(now.position - now.slope * xi, now.slope);
       if (!next) return never;
       const double step = (*next - xi).norm();
-      // Half steps after the first ones damp what swings about the answer.
+      // Half steps after the first ones damp oscillations about the answer.
       xi += (k < 20 ? 1.0 : 0.5) * (*next - xi);
       if (step <= 1e-9 * (1 + xi.norm())) return xi.norm();
       if (!std::isfinite(step)) break;
@@ -113,7 +115,8 @@ class Ellipsoid {
     return xi ? xi->norm() : never;
   }
 
-  /// The least of a flight with the full equations, looked at along its own expansions in time.
+  /// The least ratio of a flight with the full equations, looked at along its own expansions in
+  /// time.
   double least_flown_ratio(const EncounterDeviation& xi) const {
     TaylorFlow flow(problem_->system);
     std::vector<double> states;
@@ -160,7 +163,7 @@ class Ellipsoid {
         const std::size_t before = k == 0 ? 0 : k - 1;
         const std::size_t after = std::min(k + 1, ratios.size() - 1);
         if (ratios[k] > ratios[before] || ratios[k] > ratios[after]) continue;
-        // The ratio is flat at its least.
+        // The ratio is flat at its minimum.
         constexpr int bits = 20;
         minimum_between("keep-out", ratio_at, time_of(before), time_of(after), bits);
       }
@@ -224,10 +227,11 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
     const std::size_t after = std::min(k + 1, times.size() - 1);
     const bool is_least = lengths[k] <= lengths[before] && lengths[k] <= lengths[after];
     if (!is_least || lengths[k] == never) continue;
-    // Paths may cross the ellipsoid between two looks: which minima are lowest is told by
-    // themselves, not by the nearest looks.
+    // Paths may cross the ellipsoid between two looks, so that the minima are compared by their own
+    // values, not by those of the nearest looks.
     Candidate minimum{lengths[k], times[before], times[k], times[after]};
-    // To a thousandth of the time between two looks; finite, for parabolas go through it.
+    // The time of a minimum is found to a thousandth of the time between two looks; the values are
+    // finite, because parabolas go through them.
     constexpr int bits = 11;
     const double large = 10 * (1 + minimum.length);
     minimum_between(
@@ -250,7 +254,7 @@ std::vector<Candidate> linear_minima(const EncounterProblem& problem, const Elli
   return minima;
 }
 
-/// The least of a minimum's length over its interval.
+/// The margin at the minimum of the length over the interval of one candidate.
 KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   KeepOutMargin margin;
   EncounterDeviation xi = EncounterDeviation::Zero();
@@ -267,7 +271,7 @@ KeepOutMargin followed(const Ellipsoid& ellipsoid, const Candidate& candidate) {
   look(candidate.from);
   look(candidate.to);
   xi = margin.deviation;
-  // The length is flat at its least: half the digits of the time are enough.
+  // The length is flat at its minimum: half of the digits of the time suffice.
   constexpr int bits = 26;
   const double large = 10 * (1 + candidate.length);
   minimum_between(
@@ -291,7 +295,7 @@ KeepOutMargin keep_out_margin(const EncounterProblem& problem, const Eigen::Vect
     const bool is_less =
         margin.deviations && (!best.deviations || *margin.deviations < *best.deviations);
     if (is_less) best = margin;
-    // Nothing is less, and where others bend does not matter then.
+    // No length is less than 0; an error at other candidates does not matter then.
     if (best.deviations == 0.0) break;
   }
   if (best.deviations) best.flown_ratio = ellipsoid.least_flown_ratio(best.deviation);

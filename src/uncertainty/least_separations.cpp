@@ -16,12 +16,12 @@
 namespace hamjet {
 namespace {
 
-/// Separations are told to a part of the radius or, where they are smaller, of that of the means,
-/// of which a hundredth of the radius is the least that counts.
+/// Separations are accurate to this fraction of the radius or, where that is smaller, of the least
+/// separation of the means, but at least of a hundredth of the radius.
 constexpr double separation_accuracy = 1e-3;
 constexpr double least_counted = 0.01;
 
-/// The deviations of a block, a structure of arrays.
+/// The deviations of a block of samples, as a structure of arrays.
 std::vector<double> deviations_of(std::uint64_t seed, std::size_t number) {
   RandomStream random(seed, number);
   std::vector<double> points(encounter_variables * samples_in_block);
@@ -37,7 +37,7 @@ EncounterDeviation drawn_deviation(std::uint64_t seed, std::size_t sample) {
   return deviation_of(deviations_of(seed, sample / samples_in_block), sample % samples_in_block);
 }
 
-/// The samples that are flown: the first ones, and those nearest to what is told first.
+/// The samples that are flown: the first ones, and those nearest to the first quantile.
 std::vector<std::size_t> flown_samples(const std::vector<double>& least, double told,
                                        long flights) {
   const std::vector<std::size_t> nearest =
@@ -47,20 +47,19 @@ std::vector<std::size_t> flown_samples(const std::vector<double>& least, double 
   return {samples.begin(), samples.end()};
 }
 
-/// The sample below which a share of them lies.
+/// The sample below which this fraction of the samples lies.
 double quantile_of(const std::vector<double>& sorted, double share) {
   const auto place = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
   return sorted[std::min(place, sorted.size() - 1)];
 }
 
-/// A sample's least separation as the polynomials and as a flight have it.
+/// The least separation of a sample by the polynomials and by a flight.
 struct Flown {
   double told;
   double flown;
 };
 
-/// By how much flights differ from what was told of them, at most, as far as it can move a quantile
-/// of this size.
+/// The largest difference between flights and polynomials that can move a quantile of this size.
 double difference_at(const std::vector<Flown>& flights, double quantile) {
   double largest = 0;
   for (const Flown& flight : flights) {
@@ -69,7 +68,7 @@ double difference_at(const std::vector<Flown>& flights, double quantile) {
   return largest;
 }
 
-/// Quantiles of sorted samples, with intervals.
+/// Computes quantiles of sorted samples, with intervals.
 void tell_quantiles(const std::vector<double>& sorted, const std::vector<Flown>& flights,
                     double confidence, LeastSeparations& result) {
   const auto count = static_cast<double>(sorted.size());
@@ -79,8 +78,8 @@ void tell_quantiles(const std::vector<double>& sorted, const std::vector<Flown>&
     const double error = result.interpolation_error + difference_at(flights, told);
     result.separations.push_back(told);
     result.errors.push_back(error);
-    // Quantiles of the number of samples below; Boost rounds them away from the middle, but not
-    // below 0.
+    // Quantiles of the number of samples below the true quantile; Boost rounds these outwards, but
+    // not below 0.
     const boost::math::binomial_distribution<double> below(count, share);
     const auto low = static_cast<std::size_t>(boost::math::quantile(below, tail));
     const auto high =

@@ -8,7 +8,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
-// Polynomials as those of standard normal variables.
+// Polynomials of Gaussian variables, rewritten in standard normal variables.
 
 namespace hamjet {
 
@@ -57,8 +57,8 @@ std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>
   }
   Matrix<double> factor = covariance.factor();
   if (factor.cols() == 0) factor = Matrix<double>::Zero(covariance.size(), 1);
-  // The mean is the factor of one more variable, whose value is 1: a polynomial of degree N in
-  // linear forms is one of degree N, so that nothing is cut off.
+  // The mean is treated as the factor of one more variable, whose value is 1. A polynomial of
+  // degree N in linear forms is a polynomial of degree N, so that nothing is cut off.
   const bool is_moved = (mean.array() != 0).any();
   const auto rank = static_cast<std::size_t>(factor.cols());
   if (is_moved) {
@@ -79,7 +79,7 @@ std::vector<Series<double>> in_standard_normals(const std::vector<Series<double>
   if (!is_moved) return composed;
   const SpacePointer kept = SeriesSpace::create(rank, outer.order());
   std::vector<Series<double>> result(map.size(), Series<double>(kept));
-  // From the highest degree down, so that small terms are not lost.
+  // The sum runs from the highest degree down, so that small terms are not lost.
   for (std::size_t k = space->size(); k-- > 0;) {
     const std::size_t place = kept->index(space->exponents(k).first(rank));
     for (std::size_t c = 0; c < map.size(); ++c) result[c][place] += composed[c][k];

@@ -13,11 +13,12 @@
 namespace hamjet {
 namespace {
 
-/// Directions whose spread, in units of the components' standard deviations, is below this part of
-/// the largest are rounding of the polynomials' coefficients.
+/// Directions whose spread, in units of the components' standard deviations, is below this fraction
+/// of the largest spread come from rounding of the polynomials' coefficients.
 constexpr double resolved_spread = 1e-11;
 
-/// F = D U S V^T with the rows' lengths D: axes D U S and V, without what is rounding.
+/// F = D U S V^T with D the lengths of the rows: the axes D U S and the rotation V, without
+/// directions that are rounding.
 struct PrincipalAxes {
   Matrix<double> axes;
   Matrix<double> turn;  ///< V^T, r x columns of F
@@ -30,7 +31,8 @@ PrincipalAxes principal_axes(const Matrix<double>& factor) {
   for (Eigen::Index i = 0; i < m; ++i) {
     if (lengths[i] > 0) rows.row(i) /= lengths[i];
   }
-  // A factor of more columns than rows is turned to a square one first; one of fewer is filled up.
+  // A factor with more columns than rows is first rotated to a square one; a factor with fewer
+  // columns is filled up with zeros.
   Matrix<double> basis;
   Matrix<double> square = Matrix<double>::Zero(m, m);
   if (factor.cols() > m) {
@@ -52,11 +54,11 @@ PrincipalAxes principal_axes(const Matrix<double>& factor) {
   return result;
 }
 
-/// The tensor of `degree` indices with each turned by the matrix.
+/// The tensor of `degree` indices, with each index transformed by the matrix.
 std::vector<double> turned_tensor(std::vector<double> tensor, const Matrix<double>& turn,
                                   int degree) {
   for (int index = 0; index < degree; ++index) {
-    // The first index is turned and becomes the last one.
+    // The first index is transformed and becomes the last one.
     const Eigen::Index old_size = turn.cols();
     const Eigen::Index rest =
         old_size == 0 ? 0 : static_cast<Eigen::Index>(tensor.size()) / old_size;
@@ -74,14 +76,15 @@ std::size_t power(Eigen::Index base, int exponent) {
   return result;
 }
 
-/// Third and fourth moments of the uncorrelated w from those of products of two.
+/// Third and fourth moments of the uncorrelated w, from the moments of products of two components.
 struct Moments {
   std::vector<double> third;
   std::vector<double> fourth;
 };
 
-/// `pairs(i, j)` numbers the products i <= j; `with_one` are the moments of products and single
-/// ones, `with_pair` of two products.
+/// The cumulants of r = rank variables w. `pairs(i, j)` is the number of the product of w_i and
+/// w_j, i <= j; `with_one` has the moments of these products with single variables, `with_pair`
+/// those of two products.
 Moments cumulants_of(Eigen::Index rank, const Matrix<double>& with_one,
                      const Matrix<double>& with_pair) {
   const auto pair = [&](Eigen::Index i, Eigen::Index j) {
@@ -151,7 +154,7 @@ Cumulants Cumulants::of_polynomials(const std::vector<Series<double>>& map,
   const std::size_t terms = space.first(order + 1);
   const auto m = static_cast<Eigen::Index>(map.size());
 
-  // The sums of the exponents of the map's own monomials, in their order.
+  // The partial sums of the exponents of the map's own monomials, in their order.
   std::vector<std::uint8_t> sums(terms * variables);
   RowMatrix coefficients(static_cast<Eigen::Index>(terms), m);
   for (std::size_t k = 0; k < terms; ++k) {
@@ -176,7 +179,7 @@ Cumulants Cumulants::of_polynomials(const std::vector<Series<double>>& map,
     return static_cast<Eigen::Index>(places(&sums[k * variables], zero.data()));
   };
 
-  // Coefficients of Hermite polynomials: the first is the mean, the others a factor of the
+  // Coefficients of Hermite polynomials: the first is the mean, the others are a factor of the
   // covariance.
   const MonomialPlaces single_places(variables, order);
   const Monomials single = all_monomials(single_places, variables, order);
@@ -192,8 +195,8 @@ Cumulants Cumulants::of_polynomials(const std::vector<Series<double>>& map,
   const Eigen::Index rank = result.rank();
   if (rank == 0) return result;
 
-  // The uncorrelated variables as polynomials: turn has their Hermite coefficients; their
-  // monomials' are those of y - mean, of which they are linear combinations.
+  // The uncorrelated variables as polynomials. `turn` has their Hermite coefficients; their
+  // coefficients of monomials are linear combinations of those of y - mean.
   const Vector<double> deviations = result.standard_deviations();
   Matrix<double> scaled = result.axes_;
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -232,7 +235,7 @@ Cumulants Cumulants::of_polynomials(const std::vector<Series<double>>& map,
     }
   }
   to_hermite(places, monomials, 2 * order, products);
-  // Places of lower degrees come first, and the same in both lists.
+  // The places of lower degrees come first and are the same in both lists.
   const Matrix<double> with_one = products.topRows(turn.cols()).transpose() * turn.transpose();
   const Matrix<double> with_pair = products.transpose() * products;
   Moments moments = cumulants_of(rank, with_one, with_pair);

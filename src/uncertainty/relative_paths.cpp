@@ -12,16 +12,19 @@
 namespace hamjet {
 namespace {
 
-/// Deviations for which the cubics between nodes are to be right, in standard deviations.
+/// The cubics between nodes must be right for deviations of this many standard deviations.
 constexpr double sigmas = 4;
-/// More nodes than this would take gigabytes, and a sample a millisecond.
+/// More nodes would take gigabytes, and a millisecond per sample.
 constexpr std::size_t most_nodes = 20000;
 
-/// The first nodes: a sixteenth of a turn, in which nothing comes back to where it was.
+/// The first nodes are a sixteenth of a revolution apart: within this time no path returns to its
+/// place.
 constexpr double first_looks_per_period = 16;
-/// The parts of an interval at which cubics are checked; the first is where it would be halved.
+/// The fractions of an interval at which cubics are checked; the first is where the interval would
+/// be halved.
 constexpr std::array<double, 3> checked_parts = {0.5, 0.21, 0.77};
-/// Relative to the distance from the centre, flows of a tolerance of 1e-12 are not told apart.
+/// Relative to the distance from the centre, flows with a tolerance of 1e-12 cannot be
+/// distinguished below this.
 constexpr double rounding_of_flow = 1e-12;
 
 }  // namespace
@@ -57,21 +60,21 @@ void validate(const EncounterProblem& problem) {
   }
 }
 
-/// The motion at a time, as far as nodes are chosen by it.
+/// The motion at a time, as far as the choice of nodes needs it.
 struct RelativePaths::Look {
   double time = 0;
   LinearRelativeState linear;
-  double second_order = 0;  ///< of deviations of farthest_deviation
+  double second_order = 0;  ///< second-order term for deviations of farthest_deviation
 
-  /// How near a path may come that is seen here, within a time.
+  /// A lower bound for how near a path seen here may come within a time.
   double nearest(double length) const {
     const double speed =
         linear.mean.tail(3).norm() + farthest_deviation * linear.by_deviation.bottomRows(3).norm();
     return linear.mean.head(3).norm() - farthest_deviation * linear.by_deviation.topRows(3).norm() -
            second_order - speed * length;
   }
-  /// By how much the cubic from this to another look misses a third between them, at the part of
-  /// the interval where a cubic misses most.
+  /// The error of the cubic from this look to another one, judged by a third look between them, at
+  /// the fraction of the interval where a cubic errs most.
   double miss(const Look& end, const Look& between_both) const {
     const double length = end.time - time;
     const double s = (between_both.time - time) / length;
@@ -87,7 +90,7 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, d
   validate(problem);
   for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
   const EncounterTrajectories trajectories(problem);
-  // Nodes are chosen by what low orders tell, which is quicker.
+  // The choice of nodes uses low orders, which are faster.
   EncounterProblem of_low_order = problem;
   of_low_order.order = std::min(problem.order, 2);
   std::optional<EncounterTrajectories> of_its_own;
@@ -115,7 +118,7 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, d
   }
   const std::vector<double> first_times = low.times_of_looks(first_looks_per_period, 1);
   Look start = look_at(first_times.front());
-  std::vector<Look> ahead;  // the nearest last
+  std::vector<Look> ahead;  // the nearest comes last
   for (std::size_t k = 1; k < first_times.size(); ++k) {
     ahead.push_back(look_at(first_times[k]));
     while (!ahead.empty()) {
@@ -131,8 +134,8 @@ RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, d
         if (!middle) middle = between_both;
       }
       if (miss > accuracy) {
-        // Intervals are halved where the cubic is not good enough: near a perigee more than
-        // elsewhere.
+        // Intervals are halved where the cubic is not accurate enough, which happens more near a
+        // perigee than elsewhere.
         if (times_.size() + ahead.size() >= most_nodes) {
           throw Error(
               ErrorKind::too_large,

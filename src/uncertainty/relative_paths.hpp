@@ -11,12 +11,12 @@
 
 namespace hamjet {
 
-/// How many standard normal numbers tell an encounter: six for each spacecraft.
+/// The number of standard normal numbers that describe an encounter: six for each spacecraft.
 inline constexpr std::size_t encounter_variables = 12;
 using EncounterDeviation = Eigen::Matrix<double, 12, 1>;
 
 /// Paths further from the sphere than this, in standard deviations, have a probability of 1e-19 or
-/// less: they are left out.
+/// less and are left out.
 inline constexpr double farthest_deviation = 9;
 
 /// Relative position and velocity as a linear function of the twelve standard normal numbers.
@@ -30,33 +30,33 @@ struct LinearRelativeState {
 /// spacecraft, and between the nodes by the cubic through positions and velocities. Arcs between
 /// nodes on which no path comes near a sphere are left out.
 ///
-/// Immutable: threads may share one.
+/// The object is immutable: threads may share one.
 class RelativePaths {
  public:
   /// The first nodes are a sixteenth of a local period apart at most, so that no interval holds a
   /// revolution. Nodes are added between them until the cubics of the mean motion, and of the
-  /// linear motion of deviations of four standard deviations, are right to `accuracy` (a length, or
-  /// the accuracy of the flow itself where that is coarser). A cubic misses what it interpolates by
+  /// linear motion of deviations of four standard deviations, are accurate to `accuracy` (a
+  /// length), or to the accuracy of the flow itself where that is coarser. The error of a cubic is
   ///
   ///   s^2 (1 - s)^2 h^4 / 24 |d^4 x / dt^4| ,
   ///
-  /// s the part of the interval: of the misses at three parts that are not symmetric to each other,
-  /// each relative to this factor, the largest is taken, at the factor's largest. `sphere` is the
-  /// radius of the one that paths must come near to count; infinite for all.
-  /// Throws as validate and integrate_gauss, and Error(too_large) for a window that would take too
-  /// many nodes.
+  /// with s the fraction of the interval. It is measured at three fractions that are not symmetric
+  /// to each other; each measured error gives the fourth derivative, and the largest of these gives
+  /// the largest error. Only paths that come near the sphere of radius `sphere` count; if it is
+  /// infinite, all do. Throws as validate and integrate_gauss, and Error(too_large) for a window
+  /// that would take too many nodes.
   RelativePaths(const EncounterProblem& problem, double accuracy, double sphere);
 
   const std::vector<double>& times() const noexcept { return times_; }
-  /// The first nodes of the arcs that are not left out, each of which ends at the next node.
+  /// The first node of each arc that is not left out; an arc ends at the next node.
   const std::vector<std::size_t>& arcs() const noexcept { return arcs_; }
-  /// Whether the window's begin is not left out: node 0.
+  /// Whether the beginning of the window, node 0, is not left out.
   bool has_begin() const noexcept { return has_begin_; }
-  /// The largest error of the cubics, as it was found; at most the accuracy.
+  /// The largest error of the cubics that was found; at most the accuracy.
   double interpolation_error() const noexcept { return interpolation_error_; }
-  /// At a node, to first order.
+  /// The relative state at a node, to first order.
   const LinearRelativeState& linear(std::size_t node) const { return linear_[node]; }
-  /// At a time of an arc: the cubic between its nodes.
+  /// The relative state at a time of an arc, by the cubic between its nodes.
   LinearRelativeState linear_at(double time) const;
 
   /// Relative states at all nodes by the polynomials up to a degree, from 1 to the order. Points
@@ -67,7 +67,7 @@ class RelativePaths {
  private:
   struct Look;
 
-  /// For each spacecraft and degree, from 1.
+  /// For each spacecraft and each degree, from 1.
   std::array<std::vector<MapEvaluator>, 2> evaluators_;
   std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
   std::vector<double> times_;

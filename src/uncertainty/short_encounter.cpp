@@ -18,19 +18,19 @@ namespace {
 
 using std::numbers::pi;
 
-/// What the formulas are about: a normal density in a plane, and a disc about its origin.
+/// The problem that the formulas solve: a normal density in a plane, and a disc about its origin.
 struct PlaneEncounter {
-  double x, y;    ///< of the mean
+  double x, y;    ///< the mean
   double sx, sy;  ///< standard deviations
   double radius;
 };
 
-/// Beyond so many standard deviations the density is below 1e-31 of its peak.
+/// Beyond this many standard deviations the density is below 1e-31 of its peak.
 constexpr double reach = 12;
 
-/// The integral over an interval that is cut where the integrand may have a narrow peak. No part is
-/// halved more than so often: rounding of the integrand, which no halving takes away, may be above
-/// the tolerance.
+/// The integral over an interval that is cut at places where the integrand may have a narrow peak.
+/// The depth of halving is limited, because the rounding of the integrand, which no halving
+/// removes, may exceed the tolerance.
 template <class Function>
 double integral(const Function& f, std::vector<double> cuts, unsigned halvings) {
   constexpr double tolerance = 1e-11;
@@ -45,8 +45,8 @@ double integral(const Function& f, std::vector<double> cuts, unsigned halvings) 
 }
 
 double foster(const PlaneEncounter& e) {
-  // Along a direction (c, s) the density is normal again, about r with the deviation w, which 61
-  // points for the 12 deviations to a side have to rounding:
+  // Along a direction (c, s) the density is again normal, with mean r and standard deviation w. 61
+  // points over 12 standard deviations to each side integrate it to rounding:
   //   1/w^2 = c^2/sx^2 + s^2/sy^2 ,   r = w^2 (c x/sx^2 + s y/sy^2) .
   const auto along = [&](double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -62,7 +62,7 @@ double foster(const PlaneEncounter& e) {
         },
         {from, middle, to}, 0);
   };
-  // The directions of the mean and of the longer axis are where the density may be narrow.
+  // The density may be narrow about the directions of the mean and of the longer axis.
   const double mean = std::atan2(e.y, e.x), distance = std::hypot(e.x, e.y);
   const double widest = reach * std::max(e.sx, e.sy);
   const double width = distance > widest ? std::asin(widest / distance) : pi;
@@ -77,14 +77,14 @@ double alfano(const PlaneEncounter& e) {
   const auto column = [&](double x) {
     const double half = std::sqrt(std::max(0.0, e.radius * e.radius - x * x));
     const double scale = std::numbers::sqrt2 * e.sy, z = (x - e.x) / e.sx;
-    // Of erf(b) - erf(a), by what does not cancel far from the mean.
+    // erf(b) - erf(a), by a form that does not cancel far from the mean.
     const double low = (-half - e.y) / scale, high = (half - e.y) / scale;
     const double share = low > 0    ? std::erfc(low) - std::erfc(high)
                          : high < 0 ? std::erfc(-high) - std::erfc(-low)
                                     : std::erf(high) - std::erf(low);
     return share * std::exp(-z * z / 2);
   };
-  // In the angle x = radius sin(t) the integrand is smooth at the ends.
+  // With the angle t, x = radius sin(t), the integrand is smooth at the ends.
   const double middle = std::clamp(e.x, -e.radius, e.radius);
   const auto angle = [&](double x) { return std::asin(std::clamp(x / e.radius, -1.0, 1.0)); };
   return integral([&](double t) { return column(e.radius * std::sin(t)) * e.radius * std::cos(t); },
@@ -95,11 +95,11 @@ double alfano(const PlaneEncounter& e) {
 double chan(const PlaneEncounter& e) {
   const double u = e.radius * e.radius / (e.sx * e.sy) / 2;
   const double v = (e.x * e.x / (e.sx * e.sx) + e.y * e.y / (e.sy * e.sy)) / 2;
-  // exp(-v) sum of v^m / m! (1 - exp(-u) sum of u^k / k!, k to m), the last a regularised gamma
-  // function.
+  // exp(-v) sum over m of v^m / m! (1 - exp(-u) sum over k <= m of u^k / k!), where the last factor
+  // is a regularised gamma function.
   constexpr double longest_sum = 50000;
   if (v > longest_sum) {
-    // The distance from the centre is normal by then, but for terms of 1/v.
+    // The distance from the centre is normally distributed by then, up to terms of 1/v.
     const double mean = std::sqrt(2 * v) + 1 / (2 * std::sqrt(2 * v));
     return std::erfc((mean - std::sqrt(2 * u)) / std::numbers::sqrt2) / 2;
   }
@@ -155,7 +155,8 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
   result.foster = foster(e);
   result.alfano = alfano(e);
   result.chan = chan(e);
-  // The same integral along circles and along lines: neither quadrature tells what it misses.
+  // The same integral was computed along circles and along lines, because neither quadrature shows
+  // its own error.
   constexpr double largest_difference = 1e-4;
   if (!(std::abs(result.foster - result.alfano) <=
         largest_difference * std::max(result.foster, result.alfano))) {

@@ -5,7 +5,8 @@
 
 namespace hamjet {
 
-/// Of samples that have an event: how many, the sum of their weights, and of the weights' squares.
+/// The samples that have an event: their number, the sum of their weights, and the sum of the
+/// squares of the weights.
 struct Hits {
   long count = 0;
   double x = 0;
@@ -21,7 +22,7 @@ struct Hits {
     x += other.x;
     x_squared += other.x_squared;
   }
-  /// The mean of weights may come out above 1 by its error.
+  /// A mean of weights may exceed 1 by its error.
   double probability(double samples) const { return std::min(1.0, x / samples); }
   double variance(double samples) const {
     return std::max(0.0, x_squared / samples - std::pow(probability(samples), 2));

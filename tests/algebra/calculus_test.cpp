@@ -52,7 +52,8 @@ TEST(Derivative, UndoesTheIntegral) {
           EXPECT_NEAR(back[k], u[k], 2 * test::epsilon_of<double>() * std::abs(u[k]));
         }
       }
-      // The integral has no terms free of x_i, and differs from u's primitive by them alone.
+      // The integral has no terms that are free of x_i, and it differs from the primitive of u by
+      // such terms alone.
       const auto forward = integral(derivative(u, i), i);
       for (std::size_t k = 0; k < space->size(); ++k) {
         if (space->exponents(k)[i] == 0) {

@@ -7,8 +7,8 @@
 #include "support/errors.hpp"
 #include "support/random_series.hpp"
 
-// The composition against one monomial by monomial, an independent algorithm: on whole
-// numbers below 2^53, where neither rounds, they agree exactly.
+// The composition is compared with one that goes monomial by monomial, an independent algorithm. On
+// whole numbers below 2^53 neither rounds, so that they agree exactly.
 
 namespace hamjet {
 namespace {
@@ -47,7 +47,8 @@ void compare(std::size_t outer_variables, int outer_order, std::size_t inner_var
 }
 
 TEST(ComposeByHorner, AgreesWithComposition) {
-  // Every number of lanes, filled and not; blocks of every degree, and those without blocks.
+  // All numbers of lanes are tried, with and without unused lanes, and blocks of every degree and
+  // of none.
   for (std::size_t components = 1; components <= 11; ++components) {
     compare<double>(3, 4, 3, 4, components);
   }
@@ -79,7 +80,7 @@ TEST(ComposeByHorner, OfAnOuterMapOfLowDegree) {
     for (auto& component : outer) {
       for (double& x : component.slice(d)) x = 0;
     }
-    expect_same(outer, inner);  // at last constants alone
+    expect_same(outer, inner);  // at last the inner series are constants
   }
 }
 
@@ -93,13 +94,14 @@ TEST(ComposeByHorner, RefusesWhatDoesNotFit) {
 }
 
 TEST(HornerMultiplyAdds, CountsPairsOfMonomials) {
-  // At each node of depth k, of which there are C(k+5, 5), pairs of a monomial of degree 0..6-k of
-  // the node and one of degree 1 and more of a variable's series, of degree 7-k at most together;
-  // with 6, 21, 56, 126, 252, 462 monomials of degree 1..6: 17640, 5726, 1610, 371, 63, 6 pairs.
+  // At each node of depth k, of which there are C(k+5, 5), there is a pair for each monomial of
+  // degree 0..6-k of the node and each monomial of degree 1 or more of a variable's series, if
+  // their degrees add up to at most 7-k. With 6, 21, 56, 126, 252, 462 monomials of degree 1..6
+  // these are 17640, 5726, 1610, 371, 63, 6 pairs.
   const auto space = SeriesSpace::create(6, 6);
   EXPECT_EQ(composition_multiply_adds(6, 6, *space),
             6 * 17640 + 21 * 5726 + 56 * 1610 + 126 * 371 + 252 * 63 + 462 * 6);
-  // A linear map: each variable's series once.
+  // In a linear map each variable's series is used once.
   EXPECT_EQ(composition_multiply_adds(6, 1, *space), 6 * 923);
 }
 

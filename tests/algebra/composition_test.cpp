@@ -42,8 +42,8 @@ Map<double> random_integer_map(const SpacePointer& space, std::size_t components
 
 TEST(Compose, IsAssociative) {
   RandomNumbers random(31);
-  // Between spaces of different numbers of variables; whole numbers below 2^53, so without
-  // rounding.
+  // The maps are between spaces of different numbers of variables. Whole numbers below 2^53 are not
+  // rounded.
   const auto three = SeriesSpace::create(3, 4);
   const auto two = SeriesSpace::create(2, 4);
   const auto four = SeriesSpace::create(4, 4);
@@ -66,8 +66,8 @@ TEST(Compose, IsLinearAndMultiplicativeInTheOuterMap) {
   EXPECT_EQ(test::largest_difference(composed({u[0] + v[0]}, inner), {cu + cv}), 0);
 }
 
-/// Linear inner series go another way. A composition is what takes single variables to the inner
-/// series, and products to products.
+/// Linear inner series are composed by another algorithm. A composition is the map that takes
+/// single variables to the inner series, and products to products.
 TEST(Compose, TakesLinearInnerSeriesForWhatTheyAre) {
   RandomNumbers random(33);
   const auto space = SeriesSpace::create(3, 5);
@@ -161,9 +161,10 @@ TEST(Inverse, ComposesToTheIdentityBothWays) {
     }
     const Map<double> back = inverted(map);
     const auto identity = test::identity_map<double>(space);
-    // Coefficients of degree d of the composition are sums of products of a coefficient of the
-    // outer map and d of the inner one; round-off is epsilon times the sum of their magnitudes,
-    // which the same composition of the maps of absolute values gives.
+    // Coefficients of degree d of the composition are sums of products of one coefficient of the
+    // outer map and d coefficients of the inner map. The round-off is epsilon times the sum of the
+    // magnitudes of the products, and the same composition of the maps of absolute values gives
+    // this sum.
     const auto bound = [](Map<double> outer, Map<double> inner) {
       for (auto* m : {&outer, &inner}) {
         for (auto& u : *m) {
@@ -175,7 +176,7 @@ TEST(Inverse, ComposesToTheIdentityBothWays) {
     for (const auto& [outer, inner] : {std::pair{map, back}, std::pair{back, map}}) {
       const auto result = composed(outer, inner);
       const auto scale = bound(outer, inner);
-      // The inverse is itself rounded: the condition number of the linear part on top.
+      // The inverse is itself rounded, which adds the condition number of the linear part.
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear_part(map));
       const auto& values = svd.singularValues();
       const double condition = values(0) / values(values.size() - 1);

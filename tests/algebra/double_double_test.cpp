@@ -21,7 +21,7 @@ std::vector<DoubleDouble> some_numbers() {
     const double high =
         std::ldexp(random.uniform(1, 2), random.integer(-30, 30)) * (i % 3 == 0 ? -1 : 1);
     const double unit = std::ldexp(1.0, std::ilogb(high) - 105);
-    // In units of the 106th bit.
+    // The low part is a whole number of units of the 106th bit.
     const double low = std::floor(random.uniform(-1, 1) * 0x1p52) * unit;
     result.push_back(DoubleDouble::exact_sum(high, low));
   }
@@ -33,8 +33,8 @@ double relative_difference(const DoubleDouble& found, const Extended& expected) 
   return std::abs(static_cast<double>(Extended(difference / expected)));
 }
 
-/// Two numbers are all that is wrong with a sum or product of which each error is at most so many
-/// u^2 = 2^-106, see the header; extended precision adds 2^-113 for each of its operations.
+/// The error of a sum or product in double-double arithmetic is at most so many units of u^2 =
+/// 2^-106, see the header; extended precision adds 2^-113 for each of its operations.
 constexpr double u2 = 0x1p-106;
 constexpr double of_extended = 4 * 0x1p-113;
 
@@ -49,7 +49,7 @@ TEST(DoubleDouble, ErrsAtMostAsItsSourceProves) {
     EXPECT_LE(relative_difference(a - b, x - y), 3 * u2 + of_extended);
     EXPECT_LE(relative_difference(a * b, x * y), 5 * u2 + of_extended);
     EXPECT_LE(relative_difference(a / b, x / y), 10 * u2 + of_extended);
-    // A step of Newton's method from 53 digits leaves half the square of their error.
+    // One step of Newton's method from 53 digits leaves an error of half the square of their error.
     const DoubleDouble c = abs(a);
     EXPECT_LE(relative_difference(sqrt(c), sqrt(Extended(abs(x)))), 4 * u2 + of_extended);
   }
@@ -59,8 +59,8 @@ TEST(DoubleDouble, KeepsWhatADoubleLoses) {
   const DoubleDouble third = DoubleDouble(1) / 3;
   EXPECT_NE(third.low, 0);
   EXPECT_LE(relative_difference(third, Extended(Extended(1) / 3)), 10 * u2);
-  // Exact: (1 + 2^-60)^2 - 1 - 2^-59 = 2^-120 is below what 106 bits hold beside 1, but the sum is
-  // not lost before it is rounded.
+  // The expected value is exact: (1 + 2^-60)^2 - 1 - 2^-59 = 2^-120 is below what 106 bits hold
+  // beside 1, but the sum is not lost before it is rounded.
   const DoubleDouble x = DoubleDouble(1) + 0x1p-60;
   EXPECT_EQ(x - 1, DoubleDouble(0x1p-60));
   EXPECT_EQ(x * x - 1, DoubleDouble(0x1p-59));
@@ -84,7 +84,7 @@ TEST(DoubleDouble, GoesToExtendedAndBackWithoutLoss) {
   }
 }
 
-/// The lanes of a pack are numbers by themselves.
+/// The lanes of a pack are independent numbers.
 template <int Lanes>
 void expect_lanes_alike() {
   using P = Pack<DoubleDouble, Lanes>;
@@ -118,7 +118,7 @@ void expect_lanes_alike() {
     }
     EXPECT_EQ(largest_magnitude(a), largest);
     const Extended miss(static_cast<Extended>(dot(a, b)) - dot_product);
-    // A product and at most as many sums as there are lanes.
+    // The error is that of a product and of at most as many sums as there are lanes.
     EXPECT_LE(std::abs(static_cast<double>(miss)),
               (5 + 3 * Lanes) * u2 * static_cast<double>(size));
   }

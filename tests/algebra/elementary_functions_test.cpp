@@ -19,14 +19,15 @@ class ElementaryFunctions : public testing::Test {};
 using FunctionCoefficients = testing::Types<double, Pack<double, 2>, Pack<double, 16>, Extended>;
 TYPED_TEST_SUITE(ElementaryFunctions, FunctionCoefficients);
 
-/// |a - b| within the round-off of the products that a sums, degree by degree.
+/// Whether |a - b| is within the round-off of the products whose sum is a, degree by degree.
 template <class T>
 void expect_near(const Series<T>& a, const Series<T>& b,
                  const std::vector<const Series<T>*>& factors, const char* what) {
   const Series<T> difference = a - b;
   for (int d = 0; d <= a.order(); ++d) {
-    // The terms that cancel: products of the factors' slices, at most `count` of them a monomial,
-    // each rounded a few times; the factor 8 holds their recurrences' own round-off.
+    // The scale is the sum of the terms that cancel: products of the factors' slices, at most
+    // `count` products for each monomial, each rounded a few times. The factor 8 covers the
+    // round-off of the recurrences of the factors.
     double scale = 0;
     for (int i = 0; i <= d; ++i) {
       scale +=
@@ -84,7 +85,8 @@ TYPED_TEST(ElementaryFunctions, ExponentialAndLogarithmAreInverse) {
   Sample<TypeParam> s;
   const auto l = log(s.u);
   const auto e = exp(s.u);
-  // The scales: exp(log u) has the derivatives u (log u)', log(exp u) those of e^-u e^u.
+  // The scales are those of the derivatives: exp(log u) has the derivatives u (log u)', log(exp u)
+  // has those of e^-u e^u.
   const auto inverse = TypeParam(1) / s.u;
   expect_near(exp(l), s.u, {&s.u, &inverse}, "exp(log u) = u");
   const auto decay = exp(-s.u);
@@ -102,8 +104,8 @@ TYPED_TEST(ElementaryFunctions, SineAndCosineObeyTheAdditionTheorem) {
   expect_near(cu * cv - su * sv, cos(s.u + s.v), {&s.u, &s.v}, "cos(u + v)");
 }
 
-/// Taylor coefficients of f(c + x) in one variable against closed forms, to a few units in the last
-/// place each (a recurrence of N steps rounds a few times a step).
+/// Taylor coefficients of f(c + x) in one variable are compared with closed forms, to a few units
+/// in the last place for each step of the recurrence.
 template <class T>
 void expect_coefficients(const Series<T>& w, const std::vector<Extended>& expected,
                          const char* what) {
@@ -205,7 +207,7 @@ TEST(ElementaryFunctionsOfSeveralVariables, GiveMultinomialCoefficients) {
   }
 }
 
-// The polar form: a point at the angle and at its distance is the point itself.
+// In polar form, the point at the angle and at the distance is the point itself.
 TEST(ElementaryFunctionsOfTwo, AngleIsThatOfThePoint) {
   RandomNumbers numbers(7);
   const auto space = SeriesSpace::create(3, 6);

@@ -44,7 +44,8 @@ TEST(MonomialValues, RoundingIsABoundWhereTermsCancel) {
     EXPECT_LE(error, bound);
     largest = std::max(largest, error / bound);
   }
-  // Rounding adds up at random: far below the bound, but not out of proportion to it.
+  // Rounding errors add up at random: their sum is far below the bound, but not out of proportion
+  // to it.
   EXPECT_GT(largest, 1e-4);
 }
 
@@ -53,7 +54,7 @@ TEST(MonomialValues, RoundingLeavesOutHigherDegrees) {
   MonomialValues values(space);
   values.set_point(std::vector<double>{2});
   const Series<double> series(space, {1, -3, 100});
-  // Two terms of degree 1 at most: 3 half epsilons of |1| + |-3 2|.
+  // There are at most two terms of degree 1, so that the bound is 3 half epsilons of |1| + |-3 2|.
   EXPECT_DOUBLE_EQ(values.rounding(series, 1), 3 * 0x1p-53 * 7);
 }
 

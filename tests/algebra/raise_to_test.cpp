@@ -10,7 +10,8 @@
 namespace hamjet {
 namespace {
 
-// By definition: the maximum, in whatever order, and NaN wherever one is among the values.
+// The expected value follows from the definition: it is the maximum, in whatever order, and NaN if
+// one of the values is NaN.
 TEST(RaiseTo, KeepsTheLargestAndNaN) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<int> order = {0, 1, 2};

@@ -36,7 +36,7 @@ TEST(ScalarSearch, FindsTheRootInEitherDirection) {
   EXPECT_EQ(root_between("test", f, {2, 0}, {1, -1}, bits), 2);
 }
 
-// No bits of a root at 0 ever agree: the width of what is left counts there.
+// The bits of a root at 0 never agree, so that the width of the remaining interval counts.
 TEST(ScalarSearch, FindsARootAtZero) {
   const auto f = [](double x) { return std::expm1(x); };
   EXPECT_NEAR(root_between("test", f, {-1, std::expm1(-1.0)}, {3, std::expm1(3.0)}, bits), 0,
@@ -68,7 +68,8 @@ TEST(ScalarSearch, SaysThatEvaluationsAreUsedUp) {
             std::string::npos);
 }
 
-// Closed form: the least of (x - 1)^2 + 3, to the square root of rounding.
+// The least value of (x - 1)^2 + 3 is known in closed form; the search finds its place to the
+// square root of rounding.
 TEST(ScalarSearch, FindsAMinimum) {
   const auto f = [](double x) { return (x - 1) * (x - 1) + 3; };
   for (const auto& [a, b] : {std::pair(-2.0, 5.0), {5.0, -2.0}}) {
@@ -90,7 +91,7 @@ TEST(SymmetricEigenvalues, ThoseOfNoNumbersAreNone) {
             std::string::npos);
 }
 
-/// A matrix of ones and a single entry that is no number.
+/// A matrix of ones with a single entry that is not a number.
 Matrix<double> with_no_number() {
   Matrix<double> matrix = Matrix<double>::Constant(4, 4, 1);
   matrix(2, 1) = nan;
@@ -111,8 +112,8 @@ TEST(MatrixEigenvalues, AreThoseOfAnOscillator) {
   EXPECT_NEAR(std::abs(values[0] + values[1]), 0, 1e-15);
 }
 
-// Closed form: of the motion beside a circle they are 2^(1/2), -2^(1/2), and twice i and -i, where
-// Eigen's shifts go round in circles at one place of some thousands.
+// The eigenvalues of the motion beside a circle are known in closed form: 2^(1/2), -2^(1/2), and
+// twice i and -i. For one place out of some thousands Eigen's shifts go round in circles.
 TEST(MatrixEigenvalues, AreFoundBesideACircle) {
   for (int k = 0; k < 30000; ++k) {
     const double angle = k / 4700.0;
@@ -123,11 +124,11 @@ TEST(MatrixEigenvalues, AreFoundBesideACircle) {
     const auto values = matrix_eigenvalues("circle", matrix);
     EXPECT_NEAR(values.cwiseAbs().maxCoeff(), std::sqrt(2.0), 1e-12) << angle;
     EXPECT_NEAR(values.cwiseAbs().minCoeff(), 1, 1e-7)
-        << angle;  // double ones keep half the digits
+        << angle;  // double eigenvalues keep half the digits
   }
 }
 
-// Eigen's own are then what the memory held.
+// Eigen's own singular values are then whatever the memory held.
 TEST(SingularValues, ThoseOfNoNumbersAreNone) {
   const Vector<double> values = singular_values(with_no_number());
   for (const double value : values) EXPECT_TRUE(std::isnan(value));

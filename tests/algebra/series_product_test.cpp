@@ -94,7 +94,8 @@ TYPED_TEST(SeriesProduct, IsARingProduct) {
   }
 }
 
-/// Of packs and numbers, on top of what is there; orders past the largest unrolled block.
+/// Products of packs and of numbers are added to existing values; orders go past the largest
+/// unrolled block.
 TEST(AddedProduct, EqualsTheProductWithTheNumberInAllLanes) {
   using P = Pack<double, 8>;
   RandomNumbers random(4);

@@ -29,7 +29,7 @@ TEST(SeriesSpace, HasAsManyMonomialsAsTheBinomialCoefficient) {
     for (int order = 0; order <= 6; ++order) {
       const auto space = SeriesSpace::create(variables, order);
       EXPECT_EQ(space->size(), pascal[variables][static_cast<std::size_t>(order)]);
-      // A quotient of rounded products: a few units in the last place.
+      // The value is a quotient of rounded products, right to a few units in the last place.
       EXPECT_DOUBLE_EQ(SeriesSpace::monomial_count(variables, order),
                        static_cast<double>(space->size()));
       EXPECT_EQ(space->first(order + 1), space->size());
@@ -111,8 +111,9 @@ TEST(SeriesSpace, KeepsTheSpaceOfTheNextOrder) {
 }
 
 TEST(SeriesSpace, ProductCostCountsEveryPairOfFactorsOnce) {
-  // The pairs of monomials whose product has a degree of at most N are the monomials in twice as
-  // many variables: C(2v + N, N); 13, 91 and 646646 for six variables at orders 1, 2 and 10.
+  // The pairs of monomials whose product has a degree of at most N correspond to the monomials in
+  // twice as many variables, so that there are C(2v + N, N): 13, 91 and 646646 for six variables at
+  // orders 1, 2 and 10.
   EXPECT_EQ(SeriesSpace::create(6, 1)->product_cost(), 13u);
   EXPECT_EQ(SeriesSpace::create(6, 2)->product_cost(), 91u);
   EXPECT_EQ(SeriesSpace::create(6, 10)->product_cost(), 646646u);
@@ -129,11 +130,11 @@ TEST(SeriesSpace, SquareCostsAreNearHalfOfAProductsCosts) {
     const auto space = SeriesSpace::create(variables, 7);
     for (int d = 2; d <= 7; ++d) {
       const ProductSchedule& schedule = space->products(d);
-      // Every unordered pair at least once; a block that meets itself is formed in full.
+      // Every unordered pair occurs at least once; a block that meets itself is formed in full.
       EXPECT_GE(2 * schedule.square_multiply_adds, schedule.multiply_adds);
       if (d % 2 == 1) {
         EXPECT_EQ(2 * schedule.square_multiply_adds, schedule.multiply_adds);
-      } else if (d >= 4) {  // at degree 2 a block may meet none but itself
+      } else if (d >= 4) {  // at degree 2 a block may meet only itself
         EXPECT_LT(schedule.square_multiply_adds, schedule.multiply_adds);
       }
     }

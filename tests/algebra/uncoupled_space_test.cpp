@@ -10,8 +10,9 @@
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "support/errors.hpp"
 
-// Spaces whose variables have no products with each other. Expected values are the pure powers of
-// the same functions in the full space: the ideal of the mixed monomials takes no part in them.
+// Spaces whose variables have no products with each other. The expected values are the pure powers
+// of the same functions in the full space, because the ideal of the mixed monomials does not
+// influence them.
 
 namespace hamjet {
 namespace {
@@ -45,7 +46,7 @@ TEST(UncoupledSpace, IsAnotherThanTheCoupledOneButInOneVariable) {
   EXPECT_TRUE(SeriesSpace::create_uncoupled(3, 2)->next_order()->is_uncoupled());
 }
 
-/// Every operation that integrators do, of two series with a constant term of about one.
+/// Every operation that integrators use, on two series with a constant term of about one.
 std::vector<Series<double>> functions(const Series<double>& a, const Series<double>& b) {
   return {a * b,  square(a), a / b,  pow(a, -1.5), pow(b, 2.5), 1.0 / a,
           exp(a), log(a),    sin(b), cos(b),       sqrt(a * b)};
@@ -72,7 +73,8 @@ TEST(UncoupledSpace, HoldsThePurePowersOfFunctions) {
     for (std::size_t f = 0; f < values.size(); ++f) {
       for (std::size_t k = 0; k < lines->size(); ++k) {
         const double wanted = expected[f][full->index(lines->exponents(k))];
-        // Sums of up to a hundred terms of at most the size of the largest coefficient.
+        // The values are sums of up to a hundred terms, each at most of the size of the largest
+        // coefficient.
         EXPECT_NEAR(values[f][k], wanted, 1e-13 * (1 + std::abs(wanted)))
             << "function " << f << ", coefficient " << k << " of " << variables << " variables";
       }
@@ -82,7 +84,7 @@ TEST(UncoupledSpace, HoldsThePurePowersOfFunctions) {
 
 TEST(UncoupledSpace, CountsItsProducts) {
   const SpacePointer space = SeriesSpace::create_uncoupled(2, 4);
-  // Of a_1 b_3, a_2 b_2, a_3 b_1 for each variable; a square has a_1 a_3 once.
+  // For each variable the products are a_1 b_3, a_2 b_2, a_3 b_1; a square has a_1 a_3 only once.
   EXPECT_EQ(space->products(4).multiply_adds, 6u);
   EXPECT_EQ(space->products(4).square_multiply_adds, 4u);
   EXPECT_EQ(space->products(1).multiply_adds, 0u);

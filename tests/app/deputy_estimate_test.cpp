@@ -7,8 +7,8 @@
 
 #include "app/estimated_deputies.hpp"
 
-// The estimated miss of random deputies beside the true one; error_estimate_statistics does the
-// same with hundreds.
+// The estimated miss of random deputies is compared with the true one. The program
+// error_estimate_statistics does the same with hundreds of deputies.
 
 namespace hamjet::test {
 namespace {
@@ -27,8 +27,9 @@ TEST(DeputyEstimate, IsNotFarBelowTheMissOfRandomDeputies) {
   EXPECT_GT(judged, 15);
 }
 
-// The axes are the chief's, and the chief is a part of a millimetre from where it is said to be: so
-// little turns them, and the deputy is twenty times as far away as the chief is from the centre.
+// The axes are the chief's, and the chief's position is wrong by a part of a millimetre. This error
+// turns the axes by little, but the deputy is twenty times as far away as the chief is from the
+// centre.
 TEST(DeputyEstimate, HoldsWhatTheChiefsErrorTurnsTheAxesBy) {
   DrawnDeputy drawn;
   Scene& scene = drawn.scene;
@@ -74,7 +75,7 @@ DrawnDeputy about_the_earth(const std::array<double, 6>& nominal_km, JetCoordina
   scene.system.mu_km3_s2 = 398600.4415;
   scene.system.radius_km = 6378.1363;
   scene.system.J[2] = 1.08262668e-3;
-  scene.units = units_of_axis(1, 1);  // of a kilometre
+  scene.units = units_of_axis(1, 1);  // in units of a kilometre
   scene.canonical_radius = scene.system.radius_km;
   for (std::size_t i = 0; i < 6; ++i) {
     scene.nominal.push_back(nominal_km[i] * (i < 3 ? 1 : scene.units.time_s));
@@ -91,8 +92,8 @@ DrawnDeputy about_the_earth(const std::array<double, 6>& nominal_km, JetCoordina
   return drawn;
 }
 
-// Three degrees from the equatorial plane, and 110 000 km from the centre at the end: rounding of
-// the node is twenty times that of the place.
+// The orbit is three degrees from the equatorial plane and ends 110 000 km from the centre. The
+// rounding of the node is twenty times that of the position.
 TEST(DeputyEstimate, HoldsWhatCoordinatesRoundNearTheirSingularities) {
   DrawnDeputy drawn = about_the_earth({-5687.27, 4735.29, -240.1, 7.67039, 6.59714, -0.388368},
                                       JetCoordinates::flow_box, 3, 46000);
@@ -111,7 +112,8 @@ TEST(DeputyEstimate, HoldsWhatCoordinatesRoundNearTheirSingularities) {
   EXPECT_EQ(judged, 8);
 }
 
-// After a whole period the highest degree happens to change little where the series goes on.
+// After a whole period the highest degree happens to contribute little although the series
+// continues.
 TEST(DeputyEstimate, IsNotDecidedByOneDegreeThatHappensToBeSmall) {
   DrawnDeputy drawn = about_the_earth({6199.08526506, -3881.14696549, -4193.04125836,
                                        -1.90084557041, 2.71665599309, -8.72075691986},

@@ -13,9 +13,9 @@
 #include "hamjet/studies/scene.hpp"
 #include "support/kepler_ellipse.hpp"
 
-// Where deputies are, in extended precision: states from the numbers of every frame, and where they
-// come to, on ellipses from the closed form, else by an extrapolation in 31 digits through forces
-// that are written by hand. Nothing here uses what it is compared with.
+// Computes states of deputies in extended precision: initial states from the numbers of every
+// frame, and final states, on ellipses from the closed form, otherwise by an extrapolation in 31
+// digits with forces that are written by hand. Nothing here uses the code that it is compared with.
 
 namespace hamjet::test {
 
@@ -37,7 +37,7 @@ inline Numbers joined(const Place& x, const Place& v) {
   return {x[0], x[1], x[2], v[0], v[1], v[2]};
 }
 
-/// Axes R, T, N of a state by rows, and the rate |r x v| / r^2 at which R turns.
+/// The axes R, T, N of a state by rows, and the rate |r x v| / r^2 at which R turns.
 struct StateAxes {
   explicit StateAxes(const Numbers& z) {
     const Place x = position_of(z), h = cross(x, velocity_of(z));
@@ -56,7 +56,7 @@ struct StateAxes {
   Extended rate;
 };
 
-/// Elements of an ellipse with mu = 1 without singularity at circles.
+/// Elements of an ellipse with mu = 1 that have no singularity on circles.
 struct PlainElements {
   Extended a, q1, q2, i, node;  ///< q1 = e cos w, q2 = e sin w
   Extended latitude;            ///< true argument of latitude
@@ -73,7 +73,7 @@ inline PlainElements elements_of(const Numbers& z) {
   const Extended flat = sqrt(h[0] * h[0] + h[1] * h[1]);
   const Place to_node = {-h[1] / flat, h[0] / flat, 0};
   const Place beside = cross(combined(1 / size, h, 0, h), to_node);
-  const Place vector = combined(1, cross(v, h), -1 / r, x);  // of the eccentricity
+  const Place vector = combined(1, cross(v, h), -1 / r, x);  // the eccentricity vector
   PlainElements k;
   k.a = 1 / (2 / r - dot(v, v));
   k.q1 = dot(vector, to_node);
@@ -99,7 +99,7 @@ inline Numbers state_at(const PlainElements& k, const Extended& latitude) {
                 combined(-speed * (s + k.q2), to_node, speed * (c + k.q1), beside));
 }
 
-/// The same at w + M, by Kepler's equation: bisection, then Newton's method.
+/// The same state at w + M, from Kepler's equation by bisection and then Newton's method.
 inline Numbers state_at_mean(const PlainElements& k, const Extended& mean_latitude) {
   const Extended e = sqrt(k.q1 * k.q1 + k.q2 * k.q2), w = atan2(k.q2, k.q1);
   const Extended turn = 2 * boost::math::constants::pi<Extended>();
@@ -117,15 +117,15 @@ inline Numbers state_at_mean(const PlainElements& k, const Extended& mean_latitu
   return state_at(k, nu + w);
 }
 
-/// A frame of deviations, as the words of EvalFrames have it: RTN, inertial, curvilinear,
+/// A frame of deviations; the names are those of EvalFrames: RTN, inertial, curvilinear,
 /// relative-elements, element-differences, canonical.
 struct DeputyFrame {
   std::string name;
-  bool is_rotating = false;  ///< of RTN: velocities as seen from the turning axes
+  bool is_rotating = false;  ///< for RTN: whether velocities are those seen from the turning axes
 };
 
-/// The deputy's canonical state (mu = 1) from its six numbers in a frame of the chief, metres and
-/// m/s but for canonical ones.
+/// The deputy's canonical state (mu = 1) from its six numbers in a frame of the chief. The numbers
+/// are in metres and m/s except in the canonical frame.
 inline Numbers deputy_state(const DeputyFrame& frame, const CanonicalUnits& units,
                             const Numbers& chief, std::span<const double> row) {
   const Extended length = Extended(units.length_km) * 1000;
@@ -168,7 +168,7 @@ inline Numbers deputy_state(const DeputyFrame& frame, const CanonicalUnits& unit
     for (std::size_t i = 0; i < 6; ++i) state[i] += chief[i];
     return state;
   }
-  // Curvilinear: the arcs are the chief's distance, which changes, times the angles.
+  // In the curvilinear frame the arcs are the angles times the chief's distance, which changes.
   const Place chief_place = position_of(chief);
   const Extended r = sqrt(dot(chief_place, chief_place));
   const Extended fall = dot(chief_place, velocity_of(chief)) / r;
@@ -182,15 +182,14 @@ inline Numbers deputy_state(const DeputyFrame& frame, const CanonicalUnits& unit
                 axes.from(combined(fall + x[3], up, 1, across)));
 }
 
-/// Where a state of a scene's system comes to in its duration; not finite where it cannot be
-/// followed.
+/// The final state after the scene's duration; not finite if the motion cannot be followed.
 inline Numbers true_end(const Scene& scene, const Numbers& z) {
   const Place x = position_of(z), v = velocity_of(z);
   const bool is_ellipse = dot(v, v) * sqrt(dot(x, x)) < Extended(1.9);
   if (scene.system.model == SystemModel::kepler && is_ellipse) {
     return along_ellipse(z, Extended(scene.duration));
   }
-  // In units of about the chief's distance, of which no number is rounded.
+  // The unit of length is about the chief's distance, so that no number is rounded by it.
   using attack::DoubleDouble;
   const int exponent =
       std::ilogb(std::hypot(scene.nominal[0], scene.nominal[1], scene.nominal[2])) / 2;

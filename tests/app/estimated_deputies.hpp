@@ -26,7 +26,7 @@ namespace hamjet::test {
 struct DrawnDeputy {
   Scene scene;
   cli::EvalFrames frames;
-  bool is_stored = false;       ///< by the results of a run
+  bool is_stored = false;       ///< whether a run's results are used
   std::array<double, 6> row{};  ///< the deviation in the frame, metres and m/s
 };
 
@@ -35,7 +35,7 @@ inline DeputyFrame frame_of(const cli::EvalFrames& frames, const std::string& na
   return {name, frames.derivatives.value_or("rotating") == "rotating"};
 }
 
-/// How far a final row is from where the deputy comes to, metres.
+/// Distance in metres between a final row and the deputy's true final state.
 inline double true_miss_m(const DrawnDeputy& drawn, std::span<const double> row) {
   Numbers chief;
   for (std::size_t i = 0; i < 6; ++i) chief[i] = drawn.scene.nominal[i];
@@ -70,7 +70,8 @@ inline void draw_frames(Draw& draw, DrawnDeputy& drawn) {
   if (frames.frame == "RTN" || frames.final_frame() == "RTN") {
     frames.derivatives = draw.one_in(2) ? "rotating" : "inertial";
   }
-  // What a frame makes of the deviation is a draw too: any numbers are a deputy's.
+  // The numbers that a frame gives for the deviation are a draw too, because any numbers describe a
+  // deputy.
   io::StoredJet chief;
   chief.model = drawn.scene.system.model;
   chief.units = drawn.scene.units;
@@ -84,7 +85,7 @@ inline void draw_frames(Draw& draw, DrawnDeputy& drawn) {
   try {
     const auto row = cli::EvalCoordinates(chief, frames).initial_row(canonical);
     std::copy_n(row.begin(), 6, drawn.row.begin());
-  } catch (const Error&) {  // not of every deviation
+  } catch (const Error&) {  // some deviations have none
     frames = {"inertial", {}, {}};
   }
 }
@@ -132,7 +133,7 @@ struct JudgedDeputy {
   double ratio() const { return error_m / estimate.miss_m(); }
 };
 
-/// What is told of a deputy by polynomials of an integrated scene, or of a stored jet.
+/// The numbers that polynomials of an integrated scene, or of a stored jet, give for a deputy.
 template <class Evaluation>
 JudgedDeputy told(const DrawnDeputy& drawn, const io::StoredJet& chief, Evaluation& evaluation) {
   const cli::EvalCoordinates coordinates(chief, drawn.frames);
@@ -162,8 +163,9 @@ inline std::optional<io::StoredJet> stored_of(const Scene& scene) {
   return stored;
 }
 
-/// A deputy's miss beside the estimate; none where an end has not such coordinates, where no
-/// estimate is made: beyond the polynomials' reach, or where the truth cannot be followed.
+/// A deputy's miss beside the estimate. There is no value if an end does not have the coordinates,
+/// if no estimate is made because the deputy is beyond the polynomials' reach, or if the truth
+/// cannot be followed.
 inline std::optional<JudgedDeputy> judged_deputy(const DrawnDeputy& drawn) {
   std::optional<JudgedDeputy> judged;
   try {
@@ -192,7 +194,7 @@ inline std::optional<JudgedDeputy> judged_deputy(const DrawnDeputy& drawn) {
   return judged;
 }
 
-/// A line that says which deputy it was.
+/// A line that identifies the deputy.
 inline std::string description(const DrawnDeputy& drawn, const JudgedDeputy& judged) {
   return drawn.scene.name + ": " + std::string(model_name(drawn.scene.system.model)) + ", order " +
          std::to_string(drawn.scene.order) + ", " + judged.coordinates +

@@ -14,7 +14,7 @@
 namespace hamjet::attack {
 namespace {
 
-/// Thrown through hamjet's runner.
+/// An exception that passes through hamjet's runner.
 struct TooSlow {};
 
 using Seconds = std::chrono::duration<double>;
@@ -25,7 +25,7 @@ double largest(const double* values, std::size_t n) {
   return result;
 }
 
-/// In the units of the scene, with the 64 bits of long double.
+/// The state in the units of the scene, with the 64 bits of long double.
 std::vector<long double> state_of(const DrawnScene& drawn) {
   std::vector<long double> state(drawn.position.begin(), drawn.position.end());
   state.insert(state.end(), drawn.velocity.begin(), drawn.velocity.end());
@@ -98,7 +98,8 @@ std::string misread(const DrawnScene& drawn, const Scene& scene) {
   }
   const std::size_t n = drawn.model.degrees_of_freedom;
   if (scene.nominal.size() != 2 * n) return "the state has another number of components";
-  // Two units in the last place of the largest component: one rounding, and the 64 bits here.
+  // The tolerance is two units in the last place of the largest component, for one rounding and for
+  // the 64 bits here.
   const auto is_near = [](double read, long double own, long double size) {
     return std::abs(static_cast<long double>(read) - own) <= 0x1p-51L * size;
   };

@@ -27,7 +27,7 @@ int run_program(const std::string& program, const std::filesystem::path& folder)
   return WEXITSTATUS(status);
 }
 
-/// The last column of the lines behind the first, in their order.
+/// The last column of all lines after the first one, in their order.
 std::vector<double> coefficients_of(const std::filesystem::path& csv) {
   std::vector<double> result;
   std::ifstream file(csv);

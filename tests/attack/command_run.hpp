@@ -6,11 +6,11 @@
 
 namespace hamjet::attack {
 
-/// What the program made of a scene.
+/// The results of the program for a scene.
 struct CommandRun {
-  std::string
-      difference;         ///< of exit codes or numbers of coefficients from the library's; or empty
-  FlowJet<Extended> jet;  ///< as jet.csv has it
+  std::string difference;  ///< difference between the program's exit code or numbers of
+                           ///< coefficients and the library's; or empty
+  FlowJet<Extended> jet;   ///< the jet in jet.csv
 };
 
 /// Runs the program on a scene that the library has run in this process.

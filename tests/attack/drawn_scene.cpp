@@ -64,11 +64,11 @@ void draw_orbit(RandomNumbers& random, DrawnScene& scene) {
                            : random.uniform(1.05, 4);
   const bool is_open = e > 1;
   double a = random.log_uniform(6600, 70000);
-  // Below its highest zonal's surface a field is not the Earth's; of the lowest it is smooth
-  // enough.
+  // Below the surface of the highest zonal's field the field is not the Earth's; the field of the
+  // lowest zonals is smooth enough there.
   const double lowest = highest > 4 ? 6450 : highest > 0 ? 3000 : 0;
   if (is_open) {
-    a = random.log_uniform(6600, 70000);  // of the perigee
+    a = random.log_uniform(6600, 70000);  // distance of the perigee
   } else if (a * (1 - e) < lowest) {
     a = std::min(70000.0, lowest / (1 - e));
     e = std::min(e, 1 - lowest / a);
@@ -97,7 +97,7 @@ void draw_orbit(RandomNumbers& random, DrawnScene& scene) {
   if (random.chance(0.5)) scene.length_km = random.log_uniform(1e-3, 1.5e8);
 }
 
-/// A number near rest or not, of either sign.
+/// A number of either sign, near rest or not.
 double draw_near_rest(RandomNumbers& random, double largest) {
   const double size = random.chance(0.5) ? random.uniform(0, 1) : random.log_uniform(1e-9, 1);
   return random.chance(0.05) ? 0 : (random.chance(0.5) ? 1 : -1) * size * largest;
@@ -139,7 +139,8 @@ void draw_mechanics(RandomNumbers& random, DrawnScene& scene) {
     scene.velocity.push_back(scale * draw_near_rest(random, q_size * frequency * model.mass));
   }
   if (model.kind == ModelKind::spring_pendulum) {
-    // Hanging, deflected by at most a radian, and as far from its length as drawn.
+    // The pendulum hangs, deflected by at most a radian, and its length differs from its rest
+    // length as drawn.
     const double rest = model.length + model.mass * model.gravity / model.stiffness;
     const double angle = scene.position[0], stretch = 1 + 0.2 * scene.position[1];
     scene.position = {rest * stretch * std::sin(angle), -rest * stretch * std::cos(angle)};
@@ -147,7 +148,8 @@ void draw_mechanics(RandomNumbers& random, DrawnScene& scene) {
   }
   scene.revolutions = random.log_uniform(0.05, 30);
   scene.duration_s = 2 * pi * scene.revolutions / frequency;
-  // The top of the barrier has the rate 1: a deviation grows by e each time.
+  // At the top of the barrier the rate is 1: a deviation grows by the factor e in each unit of
+  // time.
   if (model.kind == ModelKind::double_well) scene.duration_s = random.log_uniform(0.1, 15);
 }
 
@@ -157,7 +159,7 @@ void draw_method(RandomNumbers& random, DrawnScene& scene) {
   const double choice = random.uniform(0, 1);
   if (choice < 0.6) {
     scene.stages = random.chance(0.4) ? 8 : random.integer(2, 12);
-    // What few stages can reach is far from rounding.
+    // A method of few stages cannot reach a tolerance near rounding.
     const double least = scene.stages >= 6 ? 1e-14 : scene.stages >= 4 ? 1e-11 : 1e-6;
     scene.tolerance =
         random.chance(0.4) && scene.stages >= 6 ? 1e-13 : random.log_uniform(least, 1e-5);

@@ -9,8 +9,8 @@
 
 #include "force_models.hpp"
 
-// Random scenes. A scene is drawn from a seed and its own number alone, so that each can be had
-// again by itself.
+// Random scenes. A scene is drawn from a seed and its own number alone, so that each scene can be
+// drawn again by itself.
 
 namespace hamjet::attack {
 
@@ -21,30 +21,30 @@ class RandomNumbers {
   double uniform(double low, double high);
   /// The logarithm is uniform.
   double log_uniform(double low, double high);
-  int integer(int low, int high);  ///< both ends included
+  int integer(int low, int high);  ///< with both ends included
   bool chance(double probability) { return uniform(0, 1) < probability; }
 
  private:
   std::mt19937_64 generator_;
 };
 
-/// What a scene says, in its own units (km and s for orbits, else m, kg, s).
+/// The contents of a scene in its own units (km and s for orbits, otherwise m, kg, s).
 struct DrawnScene {
   std::uint64_t seed = 0, number = 0;
   std::string precision = "double";
-  Model model;  ///< of an orbit the radius is in km
+  Model model;  ///< for an orbit the radius is in km
   double mu_km3_s2 = 398600.4415;
   bool is_orbit = true;
-  /// a, e, i, raan, argp, ta in km and degrees; else the state is given.
+  /// The elements a, e, i, raan, argp, ta in km and degrees; without them the state is given.
   std::optional<std::array<double, 6>> elements;
-  std::vector<double> position, velocity;  ///< of the other models momenta
+  std::vector<double> position, velocity;  ///< for the other models momenta instead of velocities
   std::optional<double> length_km;
   int order = 1;
-  std::vector<std::size_t> variables;  ///< empty: all
+  std::vector<std::size_t> variables;  ///< if empty, all variables
   double duration_s = 0;
-  int arcs = 1;  ///< 0: auto
+  int arcs = 1;  ///< if 0, the number is chosen automatically
   bool checks_surface = false;
-  bool keeps_rotation = false;  ///< it is integrated, in place of being left out and put back
+  bool keeps_rotation = false;  ///< the rotation is integrated instead of left out and put back
   bool has_zeros = false;       ///< zonal coefficients that are absent are written as 0
   std::string method = "gauss";
   int stages = 8;
@@ -53,7 +53,7 @@ struct DrawnScene {
   bool compensated_summation = true;
   std::optional<double> tolerance;
   double step_s = 0;
-  double revolutions = 0;  ///< or periods of the fastest oscillation
+  double revolutions = 0;  ///< or number of periods of the fastest oscillation
   double eccentricity = 0;
 
   std::size_t dimension() const { return 2 * model.degrees_of_freedom; }
@@ -62,10 +62,10 @@ struct DrawnScene {
 
 DrawnScene draw_scene(std::uint64_t seed, std::uint64_t number);
 
-/// As a user writes it.
+/// The scene as a user writes it.
 std::string toml(const DrawnScene& scene);
 
-/// One line.
+/// A summary of one line.
 std::string summary(const DrawnScene& scene);
 
 /// J_n of the gravity field that the program ships, from its normalised coefficients:

@@ -14,7 +14,7 @@ namespace hamjet::attack {
 
 inline constexpr std::size_t most_degrees_of_freedom = 8;
 
-/// The state along a line of initial states: positions and momenta as series.
+/// The state along a line of initial states; positions and momenta are series.
 template <class T, int N>
 struct LineState {
   std::array<LineSeries<T, N>, most_degrees_of_freedom> q, p;
@@ -51,7 +51,7 @@ class GroupSizes {
   std::array<Pair, 16> sizes_{};
 };
 
-/// A step that was accepted: its length, and how many rows of the tableau it took.
+/// An accepted step: its length, and the number of rows of the tableau that it took.
 template <class T>
 struct AcceptedStep {
   T length{};
@@ -75,8 +75,8 @@ class Extrapolation {
         tolerance_(tolerance),
         sizes_(momentum_of_amplitude(model)) {}
 
-  /// Carries the state over the time and keeps the steps that it took; false if the solution could
-  /// not be followed within the number of steps.
+  /// Carries the state over the time and keeps the steps that the integration took. False if the
+  /// solution could not be followed within the number of steps.
   bool run(State& state, const T& duration, long most_steps) {
     steps_.clear();
     sizes_ = GroupSizes(momentum_of_amplitude(model_));
@@ -91,7 +91,7 @@ class Extrapolation {
       const double span = std::abs(to_double(rest));
       if (span == 0) return true;
       const bool is_last = length >= span * (1 - 1e-12);
-      // Two steps of about the same length at the end instead of a long and a tiny one.
+      // The end is reached by two steps of about the same length instead of a long and a tiny one.
       if (!is_last && length > 0.6 * span) length = 0.5 * span;
       const T step = is_last ? rest : T(direction * length);
       const Attempt attempt = try_step(state, step, target);
@@ -109,9 +109,9 @@ class Extrapolation {
     return false;
   }
 
-  /// The same steps again from another start, without control of their error, so that the two
-  /// results differ by the change of the start alone; `change` is called before every step with its
-  /// number.
+  /// Repeats the same steps from another start without error control, so that the two results
+  /// differ only by the change of the start. `change` is called with the number of the step before
+  /// every step.
   void replay(State& state, const std::vector<AcceptedStep<T>>& steps,
               const std::function<void(std::size_t, State&)>& change) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -128,11 +128,11 @@ class Extrapolation {
   long force_evaluations() const { return evaluations_; }
 
  private:
-  static constexpr int least_rows = 5;  ///< aimed at
+  static constexpr int least_rows = 5;  ///< smallest number of rows that is aimed at
   static constexpr int most_rows = 18;
 
   struct Attempt {
-    int rows = 0;  ///< 0: rejected
+    int rows = 0;  ///< if 0, the step was rejected
     double next_length = 0;
     int next_rows = 0;
   };
@@ -142,7 +142,7 @@ class Extrapolation {
     force_of(model_, state.q.data(), result.data());
   }
 
-  /// The time in which the state changes by its own size, roughly.
+  /// Roughly the time in which the state changes by its own size.
   double first_length(const State& state, double span) {
     std::array<LineSeries<T, N>, most_degrees_of_freedom> f;
     force(state, f);
@@ -190,7 +190,8 @@ class Extrapolation {
     }
   }
 
-  /// The last correction, by degree relative to the largest coefficient, in units of the tolerance.
+  /// The last correction for each degree, relative to the largest coefficient, in units of the
+  /// tolerance.
   double error() const {
     GroupSizes sizes = sizes_;
     sizes.include(tableau_[0], n_);
@@ -208,11 +209,11 @@ class Extrapolation {
     return worst / tolerance_;
   }
 
-  /// Evaluations of the force for rows 1 to j.
+  /// The number of evaluations of the force for rows 1 to j.
   static double work(int j) { return 1 + 0.5 * j * (j + 1); }
 
-  /// Rows about the target until the tolerance is met; then the row and the step of the least work
-  /// per unit of time, as Hairer, Norsett and Wanner choose them (II.9).
+  /// Adds rows about the target until the tolerance is met. Then the row and the step of the least
+  /// work per unit of time are chosen, as by Hairer, Norsett and Wanner (II.9).
   Attempt try_step(const State& start, const T& step, int target) {
     start_step(start);
     const double length = std::abs(to_double(step));
@@ -231,7 +232,7 @@ class Extrapolation {
         attempt.rows = row;
         break;
       }
-      // One row lessens the error by about the square of its number.
+      // One further row reduces the error by about the square of its number.
       if (row == target && e > row * row) break;
     }
     const int last = std::min({row, target + 1, most_rows});
@@ -247,8 +248,8 @@ class Extrapolation {
       attempt.next_length = good_length[k] * work(last + 1) / work(last);
     }
     if (attempt.rows == 0) {
-      // At the start a coefficient of high degree is a power of the time so high that few rows do
-      // not see it, however short the step.
+      // At the start, a coefficient of high degree is such a high power of the time that few rows
+      // do not notice it, however short the step is.
       attempt.next_rows = std::min(last + 1, most_rows - 1);
       attempt.next_length = std::min(attempt.next_length, 0.7 * length);
     }

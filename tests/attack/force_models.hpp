@@ -14,7 +14,7 @@
 namespace hamjet::attack {
 
 enum class ModelKind {
-  zonal_gravity,  ///< Kepler's problem where there are no zonal coefficients; mu = 1
+  zonal_gravity,  ///< Kepler's problem if there are no zonal coefficients; mu = 1
   harmonic_oscillator,
   double_well,
   oscillator_pair,
@@ -25,7 +25,7 @@ enum class ModelKind {
 struct Model {
   ModelKind kind = ModelKind::zonal_gravity;
   std::size_t degrees_of_freedom = 3;
-  double radius = 0;               ///< of the zonal coefficients
+  double radius = 0;               ///< radius of the zonal coefficients
   std::array<double, 21> zonal{};  ///< J_n at index n
   double mass = 1;
   double stiffness = 1;
@@ -35,9 +35,9 @@ struct Model {
   double omega = 1;
 };
 
-/// The momentum of an oscillation whose amplitude is 1, mass times the fastest frequency: what
-/// makes momenta of a model comparable with positions, near rest too. 0 for an orbit, whose nominal
-/// always has a position and a momentum of its own.
+/// The momentum of an oscillation of amplitude 1, which is mass times the fastest frequency. It
+/// makes the momenta of a model comparable with positions, near rest too. It is 0 for an orbit,
+/// whose nominal always has a position and a momentum of its own.
 inline double momentum_of_amplitude(const Model& model) {
   switch (model.kind) {
     case ModelKind::zonal_gravity:
@@ -122,8 +122,9 @@ void force_of(const Model& model, const LineSeries<T, N>* q, LineSeries<T, N>* f
     case ModelKind::fermi_pasta_ulam: {
       const std::size_t points = model.degrees_of_freedom;
       for (std::size_t i = 0; i < points; ++i) force[i] = S();
-      // Springs 0 to `points`, spring i between points i - 1 and i, walls at both ends: those of
-      // odd number are stiff, with the energy omega^2/4 stretch^2, the others have stretch^4.
+      // Springs 0 to `points`; spring i lies between points i - 1 and i, and there are walls at
+      // both ends. Springs of odd number are stiff, with the energy omega^2/4 stretch^2; the others
+      // have the energy stretch^4.
       const T stiff = T(model.omega) * T(model.omega) * T(0.5);
       for (std::size_t i = 0; i <= points; ++i) {
         S stretch = i < points ? q[i] : S();

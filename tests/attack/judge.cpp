@@ -116,8 +116,8 @@ class Judge {
     return line;
   }
 
-  /// A jet is rounded in all its monomials, whatever the line along which they are added up: the
-  /// floor of a degree is the largest along any of the lines.
+  /// A jet is rounded in all its monomials, along whichever line they are added up. Therefore the
+  /// floor of a degree is the largest floor along any of the lines.
   static void share_floors(std::vector<JudgedLine>& lines) {
     for (std::size_t k = 0; k < lines[0].errors.floor.size(); ++k) {
       double largest = 0;
@@ -126,9 +126,9 @@ class Judge {
     }
   }
 
-  /// hamjet's estimate is relative to the largest coefficient, of an orbit in the chief's own
-  /// units, in which position and momentum are of size 1 as the directions are; of other systems in
-  /// theirs.
+  /// hamjet's estimate is relative to the largest coefficient. For an orbit the coefficient is in
+  /// the chief's own units, in which position and momentum are of size 1 as the directions are; for
+  /// other systems it is in their units.
   void judge_estimate(const AttackedRun& attacked, const Model& model,
                       std::vector<JudgedLine> lines) {
     const auto& estimate = attacked.run().error_estimate.by_degree;
@@ -154,8 +154,8 @@ class Judge {
     }
   }
 
-  /// The geometric mean along the lines: along one of them the errors of a degree's monomials may
-  /// add up to many times the largest, or cancel.
+  /// The geometric mean along the lines. Along one of the lines the errors of a degree's monomials
+  /// may add up to many times the largest error, or cancel.
   static double mean_error(const std::vector<JudgedLine>& lines, std::size_t k) {
     double product = 1;
     for (const JudgedLine& line : lines) {
@@ -184,9 +184,9 @@ class Judge {
     return true;
   }
 
-  /// What is promised is an error of coefficients. Along one line the errors of a degree's many
-  /// monomials may add up; the mean of their squared sum over directions of random signs is the sum
-  /// of their squares, as the sizes of the line are. Records what is wrong without a mark.
+  /// The promise is about errors of coefficients. Along one line the errors of a degree's many
+  /// monomials may add up; averaged over directions of random signs, the squared sum is the sum of
+  /// the squares, and so are the sizes of the line. Records what is wrong without a mark.
   bool is_as_promised_on_average(const AttackedRun& attacked, const Model& model,
                                  std::vector<JudgedLine> lines) {
     constexpr int directions = 10;

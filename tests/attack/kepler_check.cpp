@@ -24,13 +24,15 @@ S minus_one(S a) {
   return a;
 }
 
-/// Sine and cosine of a number: Taylor's series of a 64th of it, whose angle is then doubled.
+/// Sine and cosine of a number, from Taylor's series at a 64th of the number, whose angle is then
+/// doubled six times.
 std::pair<DoubleDouble, DoubleDouble> sine_cosine(const DoubleDouble& x) {
   constexpr int doublings = 6;
   const DoubleDouble two_pi(0x1.921fb54442d18p+2, 0x1.1a62633145c07p-52);
   const DoubleDouble turns(std::round(x.high / two_pi.high));
   const DoubleDouble y = (x - turns * two_pi) * DoubleDouble(1.0 / (1 << doublings));
-  DoubleDouble sine, versine, term(1);  // versine = 1 - cosine, small, so that no digit is lost
+  DoubleDouble sine, versine,
+      term(1);  // versine = 1 - cosine, which is small, so that no digit is lost
   for (int k = 1; k <= 24; ++k) {
     term = term * y / DoubleDouble(k);
     DoubleDouble& sum = k % 2 == 1 ? sine : versine;
@@ -44,7 +46,7 @@ std::pair<DoubleDouble, DoubleDouble> sine_cosine(const DoubleDouble& x) {
   return {sine, DoubleDouble(1) - versine};
 }
 
-/// The same of a series, from sin' = x' cos and cos' = -x' sin.
+/// Sine and cosine of a series, from sin' = x' cos and cos' = -x' sin.
 std::pair<S, S> sine_cosine(const S& x) {
   S sine, cosine;
   std::tie(sine[0], cosine[0]) = sine_cosine(x[0]);

@@ -28,7 +28,7 @@ LineState<T, N> start_of(const Model& model, const Line& line) {
   return state;
 }
 
-/// By degree, in units of the sizes of positions and momenta.
+/// Errors for each degree, in units of the sizes of positions and momenta.
 template <class T, int N>
 std::vector<double> largest_difference(const LineState<T, N>& a, const LineState<T, N>& b,
                                        std::size_t n, const LineReference& reference) {
@@ -61,8 +61,9 @@ void disturb(LineState<double, N>& state, const Model& model, double part,
   }
 }
 
-/// In double precision, with changes that are larger by a factor and divided by it afterwards, so
-/// that the rounding of this integration itself does not matter: their effect is linear.
+/// Computes in double precision with changes that are larger by a factor and divided by the factor
+/// afterwards, so that the rounding of this integration does not matter. The effect of the changes
+/// is linear.
 template <int N>
 bool sample_floor(const Model& model, const Line& line, std::uint64_t seed,
                   LineReference& reference) {
@@ -102,8 +103,8 @@ LineReference follow_to_order(const Model& model, const Line& line, std::uint64_
     reference.failure = "the independent integrator cannot follow it";
     return reference;
   }
-  // An oscillator may end at a turning point: its size is the largest along the run. At rest there
-  // is none, and any is right.
+  // An oscillator may end at a turning point, so that its size is the largest size along the run.
+  // At rest there is no size, and any size is right.
   GroupSizes sizes(momentum_of_amplitude(model));
   sizes.include(state, n);
   const auto [q_size, p_size] =
@@ -127,8 +128,8 @@ LineReference follow_to_order(const Model& model, const Line& line, std::uint64_
     reference.failure = "the floor cannot be sampled";
     return reference;
   }
-  // Both runs are rounded to 106 bits; the weights of the extrapolation, 2 k^(2k) / (2k)! in row k,
-  // amplify that some thousandfold in the longest rows.
+  // Both runs are rounded to 106 bits. The weights of the extrapolation, 2 k^(2k) / (2k)! in row k,
+  // amplify this rounding some thousandfold in the longest rows.
   for (std::size_t k = 0; k < reference.uncertainty.size(); ++k) {
     reference.uncertainty[k] =
         std::max(reference.uncertainty[k], 1e4 * 0x1p-53 * reference.floor[k]);

@@ -24,7 +24,7 @@ std::vector<double> in_unit(std::vector<double> state, double ratio) {
   return state;
 }
 
-/// The other run's jet along the same line, in the units of the first.
+/// The other run's jet along the same line, in the units of the first run.
 JetAlongLine along_same_line(const AttackedRun& other, const JudgedLine& line, double ratio) {
   LineReference sizes;
   sizes.position_size = line.reference.position_size * ratio;
@@ -41,7 +41,7 @@ JetAlongLine along_same_line(const AttackedRun& other, const JudgedLine& line, d
   return jet;
 }
 
-/// Up to the lower order of the two.
+/// The reference up to the lower order of the two.
 LineReference cut(LineReference reference, std::size_t degrees) {
   for (auto& series : reference.coefficients) series.resize(degrees);
   reference.size.resize(degrees);
@@ -50,10 +50,10 @@ LineReference cut(LineReference reference, std::size_t degrees) {
   return reference;
 }
 
-/// What rounding the start alone does to the numerical map along a line, by degree: the largest
-/// change over 16 runs whose start is moved by up to half a unit in the last place of its largest
-/// position or momentum. Steps far too long may amplify rounding more than the flow does, whose
-/// floor says nothing then. Empty where a moved run fails.
+/// The effect of rounding the start alone on the numerical map along a line, for each degree: the
+/// largest change over 16 runs whose start is moved by up to half a unit in the last place of its
+/// largest position or momentum. Steps that are far too long may amplify rounding more than the
+/// flow does, so that the flow's floor is not valid then. Empty if a moved run fails.
 std::vector<double> rounding_of_map(const AttackedRun& attacked, const JudgedLine& line,
                                     RandomNumbers& random) {
   LineReference first = line.reference;
@@ -82,8 +82,8 @@ std::vector<double> rounding_of_map(const AttackedRun& attacked, const JudgedLin
   return largest;
 }
 
-/// What two runs may differ by: ten floors of each; where the steps are chosen, they may be others,
-/// so that the errors are too.
+/// The allowed difference of two runs is ten floors of each run. If the steps are chosen, the runs
+/// may have different steps, and therefore different errors.
 double allowed_difference(Kind kind, const DrawnScene& drawn, const AttackedRun& attacked,
                           const JudgedLine& line, std::size_t k, double other_error) {
   // The command's numbers are read in double precision.
@@ -94,14 +94,14 @@ double allowed_difference(Kind kind, const DrawnScene& drawn, const AttackedRun&
   return has_same_steps ? rounding : rounding + 2 * (line.errors.error[k] + other_error);
 }
 
-/// The same of a map with fixed steps from its own rounding, of which one sample is of the start
-/// alone.
+/// The allowed difference of a map with fixed steps, from its own rounding; one sample of this
+/// rounding changes the start alone.
 double allowed_from_map(const AttackedRun& attacked, double rounding) {
   return 20 * std::sqrt(1 + static_cast<double>(attacked.run().statistics.steps)) * rounding;
 }
 
-/// Both runs against the reference: what the tolerance promises, and in one piece no better than
-/// ten times.
+/// Compares both runs with the reference. The error must be within the tolerance's promise, and a
+/// run in one piece need not be better than ten times the tolerance.
 void compare(const Variation& variation, const DrawnScene& drawn, const AttackedRun& attacked,
              const AttackedRun& other, const JudgedLine& line, std::vector<Finding>& findings) {
   const double ratio = attacked.scene->units.length_km / other.scene->units.length_km;
@@ -115,7 +115,7 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
   }
   const RelativeErrors differences = relative_errors(jet, first);
   RandomNumbers random(drawn.seed ^ 0x2545f4914f6cdd1d, drawn.number);
-  std::optional<std::vector<double>> own_rounding;  // sampled where it is needed
+  std::optional<std::vector<double>> own_rounding;  // sampled when it is needed
   for (std::size_t k = 0; k < errors.error.size(); ++k) {
     const auto add = [&](const char* rule, double value, double allowed) {
       if (value > allowed) {
@@ -126,14 +126,14 @@ void compare(const Variation& variation, const DrawnScene& drawn, const Attacked
     const double floor = std::max(errors.floor[k], line.errors.floor[k]);
     if (has_promise(variation.drawn)) {
       double promised = promised_error(variation.drawn, other, line.reference, floor);
-      // The start is rounded anew in another unit, but the reference is that of the first.
+      // In another unit the start is rounded anew, but the reference is that of the first start.
       if (variation.kind == Kind::unit) {
         promised += 10 * rounding_walk(other, line.reference) * floor_of(drawn, floor);
       }
       add("tolerance of the variation", error, promised);
     }
     if (variation.kind == Kind::unsplit) {
-      // Below the tolerance a revolution the error of one piece is luck.
+      // If the error of one piece is below the tolerance for each revolution, it is so by luck.
       const double promised = drawn.tolerance.value_or(0) * std::max(1.0, drawn.revolutions);
       const double rounding = rounding_walk(attacked, line.reference) * floor_of(drawn, floor);
       const double least = std::max(rounding, promised);
@@ -187,7 +187,7 @@ Variation draw_variation(const DrawnScene& drawn, RandomNumbers& random) {
     other.keeps_rotation = true;
     become(Kind::symmetry, "with its rotation integrated");
   } else if (drawn.is_orbit && drawn.precision == "double") {
-    // The start is rounded to binary64 in the unit, which extended precision would see.
+    // The start is rounded to binary64 in the unit, and extended precision would see the rounding.
     other.length_km = random.log_uniform(1e-3, 1.5e8);
     become(Kind::unit, fmt::format("with the unit {:.3g} km", *other.length_km));
   }

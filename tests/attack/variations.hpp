@@ -6,9 +6,9 @@
 #include "attacked_run.hpp"
 #include "judge.hpp"
 
-// Two scenes that should give the same: the same motion in another unit of length, in one piece, to
-// a lower order, in fewer variables, with its rotation integrated, with zeros written out, in
-// another precision, and by the command instead of the library.
+// Two scenes that should give the same result: the same motion in another unit of length, in one
+// piece, to a lower order, in fewer variables, with its rotation integrated, with zeros written
+// out, in another precision, and by the command instead of the library.
 
 namespace hamjet::attack {
 
@@ -19,7 +19,7 @@ struct Variation {
   DrawnScene drawn;  ///< the other scene
 };
 
-/// One that the scene admits; none where it admits none of those drawn.
+/// Draws a variation that the scene admits; no value if the scene admits none of the drawn ones.
 Variation draw_variation(const DrawnScene& drawn, RandomNumbers& random);
 
 /// A line along which a run was compared with its reference.

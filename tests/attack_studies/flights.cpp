@@ -16,7 +16,7 @@ constexpr int most_columns = 12;
 struct Field {
   Real mu;
   Real radius;
-  int highest;         ///< zonal degree; below 2 the field is that of a point
+  int highest;         ///< highest zonal degree; below 2 the field is that of a point mass
   const Real* zonals;  ///< J_n at index n
 };
 
@@ -114,7 +114,7 @@ int extrapolate(const Field& field, State& state, Real step, Real tolerance) {
   return 0;
 }
 
-/// A flight that remembers the step which it takes when nothing shortens it.
+/// A flight that remembers the step that it takes when nothing shortens the step.
 class Flight {
  public:
   Flight(const Field& field, const State& state, Real tolerance)
@@ -141,7 +141,7 @@ class Flight {
     }
     return true;
   }
-  /// The time in which a circle there turns by a radian.
+  /// The time in which a circular orbit at this place turns by a radian.
   Real pace() const {
     const Real r = norm(state_.x);
     return std::sqrt(r * r * r / field_.mu);
@@ -236,7 +236,8 @@ extern "C" {
 // Numbers come by their address: Python's interface would hand them over as doubles. `centre` is mu
 // and the radius of the zonals, whose highest degree is `highest`.
 
-/// States of `flights` orbits at `count` times, which move away from 0; 1 if one cannot be flown.
+/// Computes the states of `flights` orbits at `count` times, which move away from 0. Returns 1 if
+/// an orbit cannot be flown.
 int fly(int flights, const long double* starts, const long double* centre, int highest,
         const long double* zonals, int count, const long double* times,
         const long double* tolerance, long double* states) {

@@ -16,7 +16,7 @@ using test::bound_orbits;
 using test::ChiefOrbit;
 using test::orbit_of;
 
-/// Whether a chart exists at an orbit; those that do not are refused by name.
+/// Whether a chart exists at an orbit; a chart that does not exist is refused by name.
 bool exists(ChartName name, const ChiefOrbit& orbit) {
   try {
     CanonicalChart<double>(name, orbit.start, 1.0);
@@ -30,8 +30,8 @@ bool exists(ChartName name, const ChiefOrbit& orbit) {
 
 double norm(const Matrix<double>& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
-// Both ways are closed formulas: one after the other they leave rounding, grown by the derivatives
-// of both.
+// Both directions are closed formulas: one after the other, they leave only rounding, amplified by
+// the derivatives of both.
 TEST(CanonicalChart, IsInvertedByItsOwnFormulas) {
   std::mt19937_64 generator(1);
   for (const ChiefOrbit& orbit : bound_orbits()) {
@@ -83,7 +83,7 @@ TEST(CanonicalChart, HasElementsThatAreConstantsOfKeplersMotion) {
     const double later = static_cast<double>(true_anomaly_of_eccentric_deg(
         eccentric_anomaly_of_mean_deg(Extended(eccentric) + 20, 0.2), 0.2));
     const ChiefOrbit moved = orbit_of(9000, 0.2, i, 40, 50, later, 0, 0);
-    // In the units of the first state.
+    // The state is in the units of the first state.
     SixNumbers<double> state = moved.start;
     const double ratio = orbit.field.radius / moved.field.radius;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -146,7 +146,7 @@ TEST(CanonicalChart, HasNamesThatAreReadBack) {
   EXPECT_FALSE(chart_of("flow-box").has_value());
 }
 
-// Halves of a turn are at the ends of the range; whole turns are taken away.
+// Half turns are at the ends of the range, and whole turns are taken away.
 TEST(CanonicalChart, TakesWholeTurnsFromAngles) {
   const double turn = 2 * std::acos(-1.0);
   for (const double angle : {-3.0, 0.0, 1e-9, 2.5}) {

@@ -43,8 +43,9 @@ double largest(const FlowMap<double>& jet, int degree) {
   return size;
 }
 
-// Into the charts and out again is the identity, and a canonical chart keeps a jet symplectic: both
-// to rounding, which the compositions amplify as the coefficients grow with the degree.
+// A map into the charts and out again is the identity, and a canonical chart keeps a jet
+// symplectic. Both hold to rounding, which the compositions amplify as the coefficients grow with
+// the degree.
 TEST(ChartedMap, IsInvertibleAndKeepsTheJetSymplectic) {
   for (const ChiefOrbit& orbit : {bound_orbits()[0], bound_orbits()[1], bound_orbits()[4]}) {
     const FlowMap<double> jet = jet_of(orbit, 0.6 * orbit.period, 3);
@@ -77,7 +78,8 @@ TEST(ChartedMap, IsInvertibleAndKeepsTheJetSymplectic) {
   }
 }
 
-// Near the chief all coordinates say the same; the difference is that of their missing degrees.
+// Near the chief all coordinates give the same prediction; the difference comes from their missing
+// degrees.
 TEST(ChartedMap, PredictsWhatTheJetDoesNearTheChief) {
   const ChiefOrbit orbit = test::orbit_of(10000, 0.3, 60, 20, 40, 10);
   const FlowMap<double> jet = jet_of(orbit, 0.6 * orbit.period, 3);
@@ -93,7 +95,8 @@ TEST(ChartedMap, PredictsWhatTheJetDoesNearTheChief) {
       const auto a = plain->predict(deviation, 3);
       const auto b = flow->predict(deviation, 3);
       for (std::size_t i = 0; i < 6; ++i) {
-        // Fourth powers of 1e-5 times coefficients of some 1e5, and the rounding of whole states.
+        // The bound covers fourth powers of 1e-5 times coefficients of some 1e5, and the rounding
+        // of whole states.
         EXPECT_NEAR(b.deviation[i], a.deviation[i], 3e-14) << name_of(name);
       }
     }

@@ -29,14 +29,15 @@ SixNumbers<double> flown(const ChiefOrbit& orbit, const SixNumbers<double>& star
   return end;
 }
 
-// Deputies that are far away, or of other kinds of orbits, are right or no numbers.
+// Predictions of deputies that are far away, or on other kinds of orbits, are right or are not
+// numbers.
 TEST(FlowBoxExtremes, AnswerDeputiesFarAwayOrSayNothing) {
   const ChiefOrbit orbit = orbit_of(7086, 0.001, 98.2, 0, 90, 0);
   GaussSettings settings;
   settings.tolerance = 1e-13;
   FlowBoxPropagation<double> propagation(orbit.field, ChartName::nodal, orbit.start, 2, settings);
   const auto flow = flow_box_deputy_flow(orbit.field, propagation.advance_to(orbit.period));
-  // Half a turn ahead.
+  // The deputy is half a turn ahead.
   const SixNumbers<double> opposite = flown(orbit, orbit.start, 0.49 * orbit.period);
   SixNumbers<double> deviation;
   for (std::size_t i = 0; i < 6; ++i) deviation[i] = opposite[i] - orbit.start[i];
@@ -45,10 +46,10 @@ TEST(FlowBoxExtremes, AnswerDeputiesFarAwayOrSayNothing) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(flow->chief_end()[i] + predicted[i], end[i], 1e-11);
   }
-  // One that escapes has no period.
+  // A deputy that escapes has no period.
   for (std::size_t i = 0; i < 6; ++i) deviation[i] = i < 3 ? 0 : orbit.start[i];
   EXPECT_FALSE(std::isfinite(flow->predict(deviation, 2).deviation[0]));
-  // One at rest falls into the centre.
+  // A deputy at rest falls into the centre.
   for (std::size_t i = 0; i < 6; ++i) deviation[i] = i < 3 ? 0 : -orbit.start[i];
   EXPECT_FALSE(std::isfinite(flow->predict(deviation, 2).deviation[0]));
 }

@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-/// By an explicit method, which shares no code with Gauss's or the sections.
+/// Flies by an explicit method, which shares no code with Gauss's methods or the sections.
 SixNumbers<double> flown_there(const ZonalGravity& field, const SixNumbers<double>& start,
                                double time) {
   FlowProblem<double> problem{
@@ -36,8 +36,9 @@ double energy_of(const ZonalGravity& field, const SixNumbers<double>& z) {
              r;
 }
 
-// What the coordinates mean: a deputy is flown to the end, and from there back by the time that the
-// series say; there the angle is the chief's, and the other coordinates differ as the series say.
+// Tests the meaning of the coordinates: a deputy is flown to the end, and from there back by the
+// time that the series give. There the angle is the chief's, and the other coordinates differ as
+// the series predict.
 TEST(FlowBoxCoordinates, AreTimeSinceTheSectionPeriodAndTheSectionsCoordinates) {
   for (const test::ChiefOrbit& orbit : test::bound_orbits()) {
     const double time = 1.7 * orbit.period;
@@ -78,7 +79,7 @@ TEST(FlowBoxCoordinates, AreTimeSinceTheSectionPeriodAndTheSectionsCoordinates) 
 
 std::vector<test::ChiefOrbit> all_orbits() {
   std::vector<test::ChiefOrbit> orbits = test::bound_orbits();
-  orbits.push_back(orbits[1]);  // one that escapes, whose section is told by the energy
+  orbits.push_back(orbits[1]);  // an orbit that escapes, whose section is described by the energy
   orbits.back().start = {1, 0.1, 0, 0.2, 1.3, 0.8};
   return orbits;
 }
@@ -113,8 +114,9 @@ std::vector<double> differences(const std::vector<Series<double>>& found,
   return result;
 }
 
-// The same flow by two ways, which share neither variables nor integration: degree by degree they
-// differ by the errors of both, 1e-13 a step relative to the state, grown as the coefficients are.
+// The same flow is computed in two ways, which share neither variables nor integration. Degree by
+// degree the results differ by the errors of both, 1e-13 for each step relative to the state, which
+// grow as the coefficients do.
 TEST(FlowBoxJet, IsTheJetOfPositionsAndMomenta) {
   for (const test::ChiefOrbit& orbit : all_orbits()) {
     const double time = 0.8 * orbit.period;
@@ -130,9 +132,10 @@ TEST(FlowBoxJet, IsTheJetOfPositionsAndMomenta) {
   }
 }
 
-// The composed map is the one that is integrated in variables of its own, but for the errors of
-// both integrations as above; in positions and momenta it is the jet that it was made of, but for
-// the rounding of some thousand operations a coefficient, which cancel by a factor of up to ten.
+// The composed map equals the map that is integrated in variables of its own, except for the errors
+// of both integrations as above. In positions and momenta it equals the jet that it was made of,
+// except for the rounding of some thousand operations for each coefficient, which cancel by a
+// factor of up to ten.
 TEST(FlowBoxMapOfJet, IsTheIntegratedMapAndTheInverseOfItsJet) {
   for (const test::ChiefOrbit& orbit : all_orbits()) {
     const double time = 0.8 * orbit.period;

@@ -30,7 +30,8 @@ FlowBoxMap<double> map_of(const ChiefOrbit& orbit, double time, int order,
   return propagation.advance_to(time);
 }
 
-/// The flow by an explicit method, which shares no code with Gauss's, Taylor's or the charts.
+/// Flies by an explicit method, which shares no code with Gauss's or Taylor's methods or the
+/// charts.
 SixNumbers<double> flown(const ZonalGravity& field, const SixNumbers<double>& start, double time) {
   FlowProblem<double> problem{
       zonal_gravity(field), SeriesSpace::create(1, 0), {0}, {start.begin(), start.end()}, time};
@@ -61,8 +62,9 @@ double largest_miss(const ChiefOrbit& orbit, const DeputyFlow& flow, double time
   return largest;
 }
 
-// Kepler's motion is in closed form in the charts of elements: the time of flight is that of the
-// steady motion and the section's coordinates stay, to the rounding of the integration.
+// In the charts of elements Kepler's motion is known in closed form: the time of flight is that of
+// the steady motion, and the section's coordinates are constant, to the rounding of the
+// integration.
 TEST(FlowBox, HasNothingLeftOfKeplersMotion) {
   for (const double i : {0.2, 50.0}) {
     const ChiefOrbit orbit = orbit_of(9000, 0.2, i, 40, 50, 60, 0, 0);
@@ -90,7 +92,8 @@ TEST(FlowBox, IsSymplecticAtEveryDegree) {
       for (const SymplecticityDefect& defect : map.symplecticity()) {
         EXPECT_LT(defect.scaled, 1e-9) << defect.degree;
       }
-      // It notices one coefficient that is wrong by a thousandth of the largest of its degree.
+      // The test notices one coefficient that is wrong by a thousandth of the largest of its
+      // degree.
       const SeriesSpace& space = map.time.space();
       map.time[space.first(3) + 4] += 1e-3;
       double largest = 0;
@@ -102,8 +105,8 @@ TEST(FlowBox, IsSymplecticAtEveryDegree) {
   }
 }
 
-// Deputies drawn at random are predicted as an independent integration flies them, with an error
-// that falls as the separation to the power of the degree + 1.
+// An independent integration flies deputies drawn at random. The prediction's error falls as the
+// separation to the power of the degree + 1.
 TEST(FlowBox, PredictsDeputiesThatAreFlownIndependently) {
   for (const ChiefOrbit& orbit : bound_orbits()) {
     const double time = 1.4 * orbit.period;
@@ -125,8 +128,8 @@ TEST(FlowBox, PredictsDeputiesOfAnOrbitThatIsNoEllipse) {
   EXPECT_GT(largest_miss(orbit, *flow, 3, 1e-3, 1), 1e-8);
 }
 
-// What lies along the orbit is no variable of the polynomials: a deputy a tenth of a turn ahead is
-// as right as the chief, and so is one with another node.
+// The position along the orbit is not a variable of the polynomials: the prediction for a deputy a
+// tenth of a turn ahead, or with another node, is as right as for the chief.
 TEST(FlowBox, DoesNotSeparateWhatItLeavesOut) {
   const ChiefOrbit orbit = orbit_of(7086, 0.001, 98.2, 0, 90, 0);
   const double time = 2 * orbit.period;
@@ -149,8 +152,8 @@ TEST(FlowBox, DoesNotSeparateWhatItLeavesOut) {
   }
 }
 
-// A map of a time is the same whether or not others were made on the way, and the map of no time
-// is the identity.
+// A map over a time is the same whether or not other maps were made on the way, and the map over no
+// time is the identity.
 TEST(FlowBox, GoesOnFromTimeToTime) {
   const ChiefOrbit orbit = orbit_of(10000, 0.3, 60, 20, 40, 10);
   FlowBoxPropagation<double> propagation(orbit.field, ChartName::nodal, orbit.start, 3, gauss());
@@ -183,9 +186,9 @@ TEST(FlowBox, AgreesWithExtendedPrecision) {
   }
 }
 
-// At e = 0.9 the shear along the orbit takes the digits of a Cartesian jet's high degrees. It is
-// in none of the polynomials here, whose degrees are as right as the first, relative to the largest
-// coefficient of each.
+// At e = 0.9 the shear along the orbit costs a Cartesian jet the digits of its high degrees. The
+// polynomials here do not contain the shear: all their degrees are as right as the first, relative
+// to the largest coefficient of each.
 TEST(FlowBox, KeepsItsHighDegreesOnAnEccentricOrbit) {
   const ChiefOrbit orbit = orbit_of(70000, 0.9, 63, 0, 0, 0);
   const double time = 3.5 * orbit.period;
@@ -219,14 +222,15 @@ TEST(FlowBox, KeepsItsHighDegreesOnAnEccentricOrbit) {
   EXPECT_LT(errors[4], 10 * errors[1]);
 }
 
-// A prediction of many is that of each, and one that has no coordinates is no number.
+// A prediction of many deputies equals the predictions of each, and the prediction of a deputy
+// without coordinates is not a number.
 TEST(FlowBox, PredictsManyAsEach) {
   const ChiefOrbit orbit = orbit_of(10000, 0.3, 60, 20, 40, 10);
   const auto flow = flow_box_deputy_flow(orbit.field, map_of(orbit, orbit.period, 3));
   std::mt19937_64 generator(4);
   std::vector<SixNumbers<double>> deviations;
   for (int k = 0; k < 21; ++k) deviations.push_back(test::random_deviation(generator, 1e-2));
-  for (std::size_t i = 0; i < 3; ++i) deviations[5][i] = -orbit.start[i];  // in the centre
+  for (std::size_t i = 0; i < 3; ++i) deviations[5][i] = -orbit.start[i];  // a deputy in the centre
   std::vector<DeputyPrediction> all(deviations.size());
   flow->predict(deviations, 2, all);
   for (std::size_t k = 0; k < all.size(); ++k) {

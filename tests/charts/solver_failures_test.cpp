@@ -12,7 +12,8 @@
 namespace hamjet::test {
 namespace {
 
-// An energy above that of a parabola has no ellipse, and one far below no orbit of this momentum.
+// An orbit of an energy above that of a parabola is not an ellipse, and no orbit of this momentum
+// has an energy far below.
 TEST(SolverFailures, ASectionHasNoStateOfAnEnergyFarFromTheChiefs) {
   const ChiefOrbit orbit = orbit_of(7086, 0.001, 98.2, 0, 90, 0);
   const FlowSection<double> section(orbit.field, ChartName::nodal, orbit.start);

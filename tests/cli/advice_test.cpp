@@ -1,6 +1,6 @@
 #include "command_test.hpp"
 
-// What a slip is told: where the key belongs, never other physics.
+// The advice for a mistake says where the key belongs, and never suggests other physics.
 
 namespace hamjet::test {
 namespace {
@@ -47,7 +47,8 @@ TEST_F(Advice, HelpKnowsTablesAndKeys) {
       << scene_alone.err;
 }
 
-// A study that takes longer than what is measured tells so; what ends within it has a time.
+// A study that takes longer than the measurement says so; a study that ends within the measurement
+// has a time.
 TEST_F(Advice, CheckMeasuresTimes) {
   write("quick.toml",
         "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 7000\ne = 0\n"

@@ -74,7 +74,7 @@ TEST_F(Arcs, LeaveTheNominalAndOneArcAsTheyAre) {
   for (const char* key : {"steps", "rejected_steps", "nominal_final", "energy_error"}) {
     EXPECT_EQ(three.run[key], whole.run[key]) << key;
   }
-  // The same checks, all passed.
+  // The same checks, and all of them passed.
   ASSERT_EQ(three.run["checks"].size(), whole.run["checks"].size());
   for (std::size_t i = 0; i < three.run["checks"].size(); ++i) {
     EXPECT_EQ(three.run["checks"][i]["name"], whole.run["checks"][i]["name"]);
@@ -83,12 +83,12 @@ TEST_F(Arcs, LeaveTheNominalAndOneArcAsTheyAre) {
 }
 
 TEST_F(Arcs, AreCounted) {
-  // Arcs leave no symmetry out.
+  // Arcs use every symmetry.
   const Json whole = run({"--set", "jet.symmetry=\"none\""}).run["operations"];
   const Files three = run({"--set", "jet.arcs=3", "--threads", "2"});
   EXPECT_EQ(three.run["arcs"]["compositions"], 2);
   EXPECT_EQ(three.run["operations"]["compositions"], 2 + whole["compositions"].get<int>());
-  // Every step of the jet is taken once; of the nominal the stages are found once, and evaluated
+  // Every step of the jet is taken once. The stages of the nominal are found once and evaluated
   // once more in the arcs.
   EXPECT_EQ(three.run["operations"]["evaluations"], whole["evaluations"]);
   EXPECT_EQ(three.run["operations"]["multiply_adds"], whole["multiply_adds"]);
@@ -103,7 +103,7 @@ TEST_F(Arcs, AreDecidedAndShown) {
   const std::string table =
       succeed({"run", "scene.toml", "--threads", "2", "--set", "jet.arcs=auto"}).out;
   EXPECT_NE(table.find("; ran on 2 threads\n"), std::string::npos) << table;
-  // The same decision in both, with the speed-ups estimated for 1, 2 and 4 threads.
+  // The decision is the same in both, with the speed-ups estimated for 1, 2 and 4 threads.
   const auto decision = [](const std::string& wrapped) {
     const std::string text = unwrapped(wrapped);
     const std::size_t first = text.find("gauss8: ", text.find("arcs (") - 20);
@@ -113,10 +113,10 @@ TEST_F(Arcs, AreDecidedAndShown) {
   EXPECT_NE(decision(table).find(" on 1, "), std::string::npos) << table;
   const Json arcs = run({"--set", "jet.arcs=auto"}).run["arcs"];
   EXPECT_EQ(arcs["asked"], "auto");
-  // It is split, for it is expected to pay on four threads.
+  // The run is split, because splitting is expected to pay on four threads.
   EXPECT_GE(arcs["estimated_speed_up_by_threads"]["4"], 1.5);
   EXPECT_GT(arcs["multiply_adds"]["composition"], 0);
-  // Where it does not pay.
+  // Splitting does not pay here.
   const Json low = run({"--set", "jet.arcs=auto", "--set", "jet.order=1"}).run["arcs"];
   EXPECT_EQ(low["count"], 1);
   EXPECT_EQ(low["reason"], "splitting would not pay on 4 threads");
@@ -130,7 +130,7 @@ TEST_F(Arcs, AreRefusedWhereTheyAreNotPossible) {
   write("figure.toml", long_scene + "[figure]\nquantity = \"exactness\"\n");
   expect_error({"run", "figure.toml", "--set", "jet.arcs=2"}, 3,
                {"jet.arcs", "the figure takes the jet after every step"});
-  // What auto cannot split it leaves whole, and says why.
+  // A run that auto cannot split stays whole, and the reason is printed.
   const Json left =
       run({"--set", "jet.arcs=auto", "--set", "integrator.gauss8.method=\"fehlberg78\"", "--set",
            "integrator.gauss8.require_symplecticity=null"})

@@ -48,7 +48,8 @@ TEST_F(Compare, WritesTheSameFiguresEverywhere) {
   EXPECT_EQ(Json::parse(printed.out), json);
   EXPECT_EQ(json["complete"], true);
   EXPECT_EQ(json["reference"]["cached"], false);
-  // 2 steps and 2 tolerances for each of midpoint, Gauss with 4 stages, and Fehlberg.
+  // The runs are 2 step sizes and 2 tolerances for each of midpoint, Gauss with 4 stages, and
+  // Fehlberg.
   ASSERT_EQ(json["runs"].size(), 12U);
 
   const Table table = read_table(out("compare.csv"));
@@ -79,7 +80,7 @@ TEST_F(Compare, AdviceIsASceneThatReachesTheError) {
   succeed({"run", "advised.toml", "-q"});
   const Json summary = read_json(directory_ / "out/advised/summary.json");
   ASSERT_EQ(summary["runs"].size(), 1U);
-  // 10 m of some 10^7 m.
+  // 10 m in about 10^7 m.
   EXPECT_LT(summary["runs"][0]["error_by_degree"][0]["relative"].get<double>(), 1e-6);
 }
 
@@ -112,9 +113,10 @@ TEST_F(Compare, InterruptedAndResumedGivesTheSameFigures) {
                                     "--set",
                                     "compare.time_budget_s=1000"};
   };
-  // First the whole, which leaves the reference in the cache: the other's runs begin at once.
+  // The whole comparison comes first and leaves the reference in the cache, so that the runs of the
+  // other begin at once.
   EXPECT_EQ(hamjet(command("whole")).exit_code, 0);
-  // Its first results come at once; the orders of convergence take seconds.
+  // The first results come at once; the orders of convergence take seconds.
   options_.signal =
       Signal{SIGINT, 1, std::chrono::milliseconds(0), directory_ / "parts/compare.json"};
   const CommandResult interrupted = hamjet(command("parts"));
@@ -141,7 +143,7 @@ TEST_F(Compare, InterruptedAndResumedGivesTheSameFigures) {
     EXPECT_EQ(parts["runs"][i]["seconds"].size(), 2U);
   }
   EXPECT_EQ(parts["along_time"], whole["along_time"]);
-  // A comparison of other runs is not mixed with this one.
+  // A comparison of other runs is kept apart from this one.
   const CommandResult other = hamjet({"compare", "scene.toml", "-q", "-o", "parts", "--resume"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_NE(other.err.find("another scene"), std::string::npos) << other.err;

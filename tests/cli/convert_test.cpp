@@ -25,7 +25,7 @@ TEST_F(ConvertTest, ThereAndBack) {
   for (const std::string& ending : endings()) {
     const std::string file = "results/other" + ending;
     EXPECT_EQ(succeed({"convert", "results", file, "--run", "midpoint"}).out, "");
-    // A file of coefficients does not say whose they are.
+    // A file of coefficients does not name the run that they belong to.
     succeed({"convert", file, "back.csv", "--run", "midpoint"});
     EXPECT_EQ(content(directory_ / "back.csv"), midpoint) << ending;
     const std::string one = "100,-200,300,0.1,0,0.2";
@@ -55,7 +55,8 @@ TEST_F(ConvertTest, BetweenCoordinates) {
   int degree = 0;
   int last = 0;
   for (double lost = 0, defect = 0; lines >> degree >> lost >> defect; last = degree) {
-    // Rounding to double precision, times what the charts' own coefficients of the degree amplify.
+    // The bound is the rounding to double precision times the factor by which the charts'
+    // coefficients of the degree amplify it.
     EXPECT_LT(lost, 1e-13) << said;
     EXPECT_LT(defect, 1e-13) << said;
   }
@@ -71,7 +72,8 @@ TEST_F(ConvertTest, BetweenCoordinates) {
   const Json plain = evaluated({"eval", "results"});
   for (const char* const name : {"R_m", "T_m", "N_m"}) {
     const double found = stored["rows"][0][name];
-    EXPECT_NEAR(found, integrated["rows"][0][name].get<double>(), 1e-7);  // of 7000 km, 7 digits
+    EXPECT_NEAR(found, integrated["rows"][0][name].get<double>(),
+                1e-7);  // rounding of 7000 km in 7 digits
     EXPECT_NE(found, plain["rows"][0][name].get<double>());
   }
   EXPECT_NEAR(stored["rows"][0]["rounding_m"].get<double>(),
@@ -142,7 +144,7 @@ TEST_F(ConvertTest, AJetToAFlowBox) {
   const Json back = row_of({"eval", "back.h5"});
   for (const char* const name : {"R_m", "T_m", "N_m"}) {
     const double found = box[name];
-    // Of 7000 km some 1e-13 of the integrations and the charts' rounding.
+    // The bound is some 1e-13 of 7000 km for the integrations, plus the charts' rounding.
     EXPECT_NEAR(found, integrated[name].get<double>(), 1e-5);
     EXPECT_NEAR(found, again[name].get<double>(), 1e-6);
     EXPECT_NEAR(back[name].get<double>(), plain[name].get<double>(), 1e-7);
@@ -248,12 +250,12 @@ TEST_F(ConvertTest, Mistakes) {
   }
 }
 
-// Names that results have too, outside of them: the user's own files.
+// Files with names that results also have, outside of results, are the user's own.
 TEST_F(ConvertTest, FilesOfTheirOwn) {
   for (int times = 0; times < 2; ++times) succeed({"convert", "results", "jet.csv"});
   if (!io::hdf5_available()) return;
   for (int times = 0; times < 2; ++times) succeed({"convert", "results", "jets.h5"});
-  // Read in the folder in which it lies.
+  // The file is read in the folder in which it lies.
   succeed({"convert", "jets.h5", "again.h5"});
   EXPECT_EQ(content(directory_ / "again.h5"), content(directory_ / "jets.h5"));
 }

@@ -28,7 +28,7 @@ class FailingCalls : public TwoResults {
       EXPECT_FALSE(std::filesystem::exists(directory_ / results / ".hamjet-lock"));
       EXPECT_FALSE(std::filesystem::exists(directory_ / results / ".hamjet-new"));
       present = found();
-      // A rename of one file may fail after the decision: the next command makes it good.
+      // The renaming of one file may fail after the decision; the next command completes it.
       if (name != "rename") {
         EXPECT_EQ(present, 0);
       }
@@ -54,7 +54,7 @@ TEST_F(FailingCalls, Close) { EXPECT_EQ(fail_each("close"), 7); }
 TEST_F(FailingCalls, MakeFolder) { EXPECT_GE(fail_each("mkdir"), 5); }
 TEST_F(FailingCalls, Rename) { EXPECT_GE(fail_each("rename"), 8); }
 
-// A disk that does not answer does not keep the program from ending.
+// The program ends even if a disk does not answer.
 TEST_F(FailingCalls, SignalsWhileTheDiskHangs) {
   int while_writing = 0;
   for (const int times : {1, 2}) {

@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 class Faults : public CommandTest {
  protected:
-  /// Runs a command beside the test until it ends, or until finish() where it would take too long.
+  /// Runs a command beside the test until it ends, or until finish() stops it because it would take
+  /// too long.
   void start(const std::vector<std::string>& arguments) {
     CommandOptions options = options_;
     options.kill = Kill{std::chrono::microseconds(0), directory_ / "stop"};
@@ -73,7 +74,7 @@ class Faults : public CommandTest {
 const std::vector<std::string> endless = {"run", "quick.toml", "--set",
                                           "integrator.midpoint.step_canonical=1e-8"};
 
-/// A run of a second or so.
+/// The run takes a second or so.
 const std::vector<std::string> second_or_so = {"run", "quick.toml", "--set",
                                                "integrator.midpoint.step_canonical=1e-5"};
 
@@ -91,7 +92,7 @@ TEST_F(Faults, ASecondRunInTheSameDirectoryIsRefusedAtOnce) {
                5, words);
   succeed({"run", "quick.toml", "-o", "elsewhere", "-q"});
   EXPECT_EQ(kill_and_finish().signal, 9);
-  // The lock of a process that was killed is free, though its file is still there.
+  // The lock of a process that was killed is free, although its file still exists.
   EXPECT_TRUE(fs::exists(directory_ / "out/quick/.hamjet-lock"));
   succeed({"run", "quick.toml", "-q"});
   EXPECT_FALSE(fs::exists(directory_ / "out/quick/.hamjet-lock"));
@@ -165,7 +166,7 @@ class SmallDisk : public Faults {
     ASSERT_EQ(::mount("none", disk_.c_str(), "tmpfs", MS_REMOUNT, option.c_str()), 0) << option;
   }
 
-  /// With too little space nothing changes; returns whether it was enough.
+  /// With too little space nothing changes; returns whether the space was enough.
   bool run_with_little_space() const {
     const auto before = contents(disk_);
     const CommandResult result =
@@ -203,7 +204,7 @@ TEST_F(SmallDisk, FullAtAnyFile) {
     resize("nr_inodes=" + std::to_string(used + files));
     is_enough = run_with_little_space();
   }
-  // Nine files, at least.
+  // There are at least nine files.
   EXPECT_GT(files, 8U);
 }
 
@@ -215,7 +216,7 @@ TEST_F(Faults, ASceneThatGrowsWhileItIsReadIsRefused) {
   std::thread writer([&] {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     for (int i = 1; !is_over; ++i) {
-      // Never above the largest size of a scene.
+      // The size is never above the largest size of a scene.
       if (i % 100'000 == 0) fs::resize_file(file, scene.size());
       EXPECT_EQ(::write(descriptor, "-", 1), 1);
     }

@@ -39,13 +39,13 @@ TEST_F(GravityFile, IsNamedInTheSummaryWithAllThatWasTakenFromIt) {
   EXPECT_TRUE(other["system"]["gravity_file"].is_null());
   EXPECT_EQ(content(directory_ / "keys/gauss8/jet.csv"),
             content(directory_ / "file/gauss8/jet.csv"));
-  // No orbit, no field.
+  // Without an orbit there is no field.
   succeed({"run", "scenes/scene.toml", "-q", "-o", "kepler", "--set",
            "system={model=\"kepler\", mu_km3_s2=1}"});
   EXPECT_TRUE(read_json(directory_ / "kepler/summary.json")["system"]["radius_km"].is_null());
 }
 
-// J5 doubles in a Julian year: its trend is its value.
+// J5 doubles within a Julian year because its trend equals its value.
 TEST_F(GravityFile, ThatVariesWithTimeIsTakenAtTheEpoch) {
   const std::string field = content(directory_ / "field.gfc");
   const std::string row = "gfc     5    0   0.685323475630e-07   0.0 0 0";

@@ -39,10 +39,10 @@ std::string ephemeris_block(const std::string& name, const std::string& id, cons
 
 class Init : public CommandTest {
  protected:
-  /// What a line begins with that names the program as it was called.
+  /// The beginning of a line that names the program as it was called.
   const std::string called = std::string("  ") + HAMJET_COMMAND + " ";
 
-  /// Runs what the command said to go on with, at least two lines of plain words.
+  /// Runs the commands that the output suggests next, at least two lines of plain words.
   void run_what_is_next(const std::string& said) const {
     const std::size_t next = said.find("\nnext:\n");
     ASSERT_NE(next, std::string::npos) << said;
@@ -78,7 +78,7 @@ TEST_F(Init, EveryKindRunsAsItIs) {
       while (text.find(mark) != std::string::npos) text = changed(text, mark, word);
     }
     EXPECT_EQ(content(directory_ / file), text);
-    // The commands are in the scene as well.
+    // The scene contains the commands as well.
     EXPECT_NE(text.find("\n#   hamjet "), std::string::npos);
     run_what_is_next(said);
     succeed({"run", file, "-q"});
@@ -163,7 +163,7 @@ TEST_F(Init, TakesTheCentreOfTheMessage) {
   const std::string text = content(directory_ / "mars.toml");
   EXPECT_NE(text.find("model = \"kepler\"\nmu_km3_s2 = 42828.375816\n"), std::string::npos) << text;
   write("vesta.opm", changed(slow, "CENTER_NAME = MARS", "CENTER_NAME = VESTA"));
-  // Faster than the escape from Mars the orbit has no period.
+  // An orbit faster than the escape from Mars has no period.
   write("fast.opm", parameter_message("MARS"));
   run_what_is_next(succeed({"init", "--from", "fast.opm"}).out);
   const std::string fast = content(directory_ / "fast.toml");

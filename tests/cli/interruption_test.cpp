@@ -36,7 +36,7 @@ TEST_F(Interruption, BetweenSteps) {
   }
 }
 
-// Started by nohup it outlives its terminal.
+// A command that is started by nohup outlives its terminal.
 TEST_F(Interruption, AHangUpThatIsIgnoredStaysSo) {
   for (const int signal : {SIGHUP, SIGQUIT}) {
     options_.signal = Signal{.number = signal,
@@ -96,7 +96,8 @@ TEST_F(Interruption, BetweenFiguresAndReportTheFiguresStay) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/quick/report.html"));
 }
 
-// From the very start to the second in which the command is deep at work; each would take minutes.
+// The signals come at times from the very start to the second in which the command is deep at work;
+// each command would take minutes.
 TEST_F(Interruption, AtAnyMomentOfAnyCommand) {
   const std::string transfer =
       "transfer={frame=\"RTN\", count=10000, start={position_m=[0, -1000, 0]}, "
@@ -129,8 +130,8 @@ TEST_F(Interruption, AtAnyMomentOfAnyCommand) {
       EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
       std::filesystem::remove_all(directory_ / "cache");
       if (result.err.find("nothing was written") == std::string::npos) {
-        // A comparison keeps what it has, as a set of its own; all or nothing where a second signal
-        // came while it was written.
+        // A comparison keeps its results so far as a set of its own, or nothing if a second signal
+        // came while the set was written.
         EXPECT_EQ(command[0], "compare");
         const std::filesystem::path summary = directory_ / "out/quick/compare.json";
         if (result.err.find("while the results were written") == std::string::npos) {

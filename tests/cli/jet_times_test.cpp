@@ -25,12 +25,12 @@ constexpr double rate = 1e-3;
 constexpr double higher = 1e-4;
 std::pair<double, double> deputy_after(double time_s) {
   const double angle = rate * (std::pow(1 + higher, -1.5) - 1) * time_s;
-  // 1 + higher times cos less 1, without cancellation.
+  // 1 + higher, times the cosine, minus 1, computed without cancellation.
   const double r = radius_m * (higher - (1 + higher) * 2 * std::pow(std::sin(angle / 2), 2));
   return {r, radius_m * (1 + higher) * std::sin(angle)};
 }
 
-/// Its start, with the velocity as seen from the turning axes.
+/// The start of the deputy, with the velocity as seen from the turning axes.
 std::string deputy_start() {
   const double speed = radius_m * rate * (1 / std::sqrt(1 + higher) - (1 + higher));
   return fmt::format("{:.17g},0,0,0,{:.17g},0", radius_m * higher, speed);
@@ -60,7 +60,7 @@ TEST_F(JetTimes, AreOfTheMotionAtEach) {
     EXPECT_EQ(row["support"], "inside");
     EXPECT_LT(row["miss_estimate_m"].get<double>(), 1e-3);
   }
-  // Several in any order, and the end by its time.
+  // The times may be in any order, and the end may be given by its time.
   const Json two = eval_json({"circular", "--deviation", deputy_start(), "--time", "6000,1500"});
   EXPECT_EQ(two["rows"][0], json["rows"][3]);
   EXPECT_EQ(two["rows"][1], json["rows"][1]);
@@ -84,7 +84,7 @@ TEST_F(JetTimes, AreInEveryFormatByThemselves) {
   succeed({"convert", "circular", "copy.dace", "--time", "1500"});
   EXPECT_EQ(content(directory_ / "copy.dace"),
             content(directory_ / "circular/gauss8/time-0002/jet.dace"));
-  // The end has its files where they always are.
+  // The files of the end are where they always are.
   EXPECT_FALSE(std::filesystem::exists(directory_ / "circular/gauss8/time-0004"));
 }
 
@@ -128,7 +128,7 @@ TEST_F(JetTimes, OfAScene) {
 TEST_F(JetTimes, OfRowsFromAPipeOrStandardInput) {
   store("circular", timed_scene);
   std::string text = rtn_header + "\n";
-  // More than is evaluated at once.
+  // The number of rows is larger than the number evaluated at once.
   for (int i = 0; i < 5000; ++i) text += fmt::format("{},0,0,0,0,0\n", i % 100);
   write("start.csv", text);
   std::vector<std::string> command = {"eval", "circular",     "--time",   "600,4000",

@@ -1,6 +1,6 @@
 #include "command_test.hpp"
 
-// A numerical failure does not cost the results that are there.
+// A numerical failure does not remove existing results.
 
 namespace hamjet::test {
 namespace {
@@ -17,8 +17,8 @@ class KeptResults : public CommandTest {
            "[jet]\norder = 2\nduration_orbits = 0.9\n" + gauss8("tolerance = 1e-13") + table;
   }
 
-  /// The command must do well, then fail without replacing what it wrote; alone it must leave what
-  /// it has.
+  /// The command must succeed first, and then fail without replacing its results; without earlier
+  /// results it must leave its partial ones.
   void expect_kept(const std::vector<std::string>& good, const std::vector<std::string>& bad) {
     EXPECT_EQ(hamjet(good).exit_code, 0);
     const std::string earlier = content(directory_ / "out/summary.json");
@@ -38,7 +38,7 @@ class KeptResults : public CommandTest {
     EXPECT_EQ(alone.exit_code, 4);
     EXPECT_EQ(alone.err.find("kept"), std::string::npos) << alone.err;
     EXPECT_EQ(read_json(directory_ / "out/summary.json")["exit_code"], 4);
-    // What has failed itself gives way, to a failure as to a result.
+    // A failed set of results is replaced by a failure as by a result.
     EXPECT_EQ(hamjet(bad).err.find("kept"), std::string::npos);
     EXPECT_EQ(hamjet(good).exit_code, 0);
     EXPECT_EQ(read_json(directory_ / "out/summary.json")["exit_code"], 0);
@@ -63,7 +63,7 @@ TEST_F(KeptResults, OfAssignments) {
 }
 
 TEST_F(KeptResults, OfRunsThatHaveNone) {
-  // It falls into the centre within pi sqrt(1/8) units of time.
+  // The deputy falls into the centre within pi sqrt(1/8) units of time.
   const std::string fall =
       changed(quick_scene(),
               "a_km = 10000\ne = 0.1\ni_deg = 30\nraan_deg = 10\nargp_deg = 20\nta_deg = 30\n",
@@ -81,7 +81,7 @@ TEST_F(KeptResults, OfBoundedFormations) {
         "argp_deg = 30\nta_deg = 0\n[jet]\norder = 2\nduration_orbits = 1\n"
         "[bounded]\nsizes_km = [2]\nrevolutions = 10\n");
   const std::vector<std::string> good = {"bounded", "long.toml", "-o", "out"};
-  // These alone take it further than its size.
+  // These coefficients alone take the deputy further than its size.
   expect_kept(good, with_overrides(good, {"bounded.cross_track=0.9", "bounded.along_track=0.9"}));
 }
 

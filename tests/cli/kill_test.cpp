@@ -48,7 +48,7 @@ class KillTest : public TwoResults {
   CommandResult run_and_kill(const std::vector<std::string>& arguments, const fs::path& output,
                              int number) {
     const bool is_writing = number % 2 == 1;
-    // Left by the run before, it would be there too early.
+    // A file left by the previous run would exist too early.
     if (is_writing) fs::remove_all(output / ".hamjet-new");
     CommandOptions options = options_;
     options.kill = Kill{random_time(is_writing ? writing_time_ : whole_time_),
@@ -126,7 +126,7 @@ class KillComparison : public KillTest {
  protected:
   KillComparison() {
     write("oscillator.toml", compared_oscillator);
-    // Without gnuplot, which would take most of the time.
+    // The run is without gnuplot, which would take most of the time.
     options_.environment = {{"XDG_CACHE_HOME", (directory_ / "cache").string()},
                             {"PATH", "/nowhere"}};
   }
@@ -137,7 +137,7 @@ class KillComparison : public KillTest {
     return arguments;
   }
 
-  /// The figures of a comparison, without times.
+  /// The numbers of a comparison, without times.
   Json figures(const std::string& directory) const {
     const Json json = read_json(directory_ / directory / "compare.json");
     EXPECT_EQ(json["complete"], true);
@@ -161,7 +161,7 @@ TEST_F(KillComparison, IsTakenUpWithTheSameFigures) {
   ASSERT_EQ(hamjet(comparison("whole")).exit_code, 0);
   const Json expected = figures("whole");
   whole_time_ = measure(comparison("measured"));
-  // From the first checkpoint on.
+  // Kills come from the first checkpoint on.
   writing_time_ = whole_time_ * 3 / 4;
   int count_fresh = 0;
   int count_resumed = 0;
@@ -169,7 +169,7 @@ TEST_F(KillComparison, IsTakenUpWithTheSameFigures) {
   int count_ended = 0;
   for (int i = 0; i < kills() && !HasFailure(); ++i) {
     fs::remove_all(directory_ / "parts");
-    // Some are killed a second time, while they are resumed.
+    // Some runs are killed a second time while they are resumed.
     const int times = i % 5 == 4 ? 2 : 1;
     bool has_begun = false;
     for (int k = 0; k < times; ++k) {

@@ -128,7 +128,7 @@ TEST_F(MechanicalModels, StoredJetsAreReadBack) {
                {"nominal_initial", "must have 4 or 8 or 12 or 16 numbers, has 10"});
 }
 
-// A pair that moves in one oscillator only is one oscillator.
+// A pair that moves in one oscillator only is treated as one oscillator.
 TEST_F(MechanicalModels, AnOscillatorAtRestIsLeftOut) {
   store("half",
         changed(changed(changed(pair_scene, "kinds = [\"F1\", \"qp-pq\", \"auto\"]",
@@ -148,7 +148,7 @@ TEST_F(MechanicalModels, Comparison) {
   EXPECT_GE(read_json(directory_ / "results/compare.json")["runs"].size(), 4U);
 }
 
-// A method beyond its limit of stability is no result; the others go on.
+// A method beyond its limit of stability gives no result; the other methods go on.
 TEST_F(MechanicalModels, UnstableStepsAreAnError) {
   write("pair.toml", pair_scene + R"([[integrator]]
 label = "verlet"

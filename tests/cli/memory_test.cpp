@@ -1,6 +1,6 @@
 #include "command_test.hpp"
 
-// How much memory high orders take. The bounds are the program's promises; what is measured is the
+// The memory that high orders take. The bounds are the program's promises; the tests measure the
 // largest resident size of the whole process.
 
 namespace hamjet::test {
@@ -26,7 +26,7 @@ class Memory : public CommandTest {
   void expect_peak_below(long bytes, int order, const std::string& kinds) {
     const CommandResult result = run_paper_orbit(order, kinds);
     EXPECT_LT(result.peak_resident_bytes, bytes) << "order " << order << ", " << kinds;
-    // The jet that is computed is that large at least: 6 components of C(6 + order, 6) numbers.
+    // The computed jet has at least this size: 6 components of C(6 + order, 6) numbers.
     double coefficients = 6;
     for (int k = 1; k <= 6; ++k) coefficients *= static_cast<double>(order + k) / k;
     EXPECT_GT(static_cast<double>(result.peak_resident_bytes), 8 * coefficients);
@@ -56,7 +56,7 @@ TEST_F(Memory, DoesNotGrowWithTheRowsOfATable) {
     }
     return result.peak_resident_bytes;
   };
-  // The first megabytes of what is printed are kept in memory.
+  // The first megabytes of the printed output are kept in memory.
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{"-o", "end.csv"}, {"--json"}, {}}) {
     const long growth = peak(160'000, more) - peak(60'000, more);

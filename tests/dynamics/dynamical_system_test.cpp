@@ -34,7 +34,7 @@ TEST(ZonalGravity, HandWrittenVectorFieldIsTheHamiltonians) {
       const auto b = test::evaluate_list(derived.vector_field, z);
       for (std::size_t i = 0; i < 6; ++i) EXPECT_LE(test::magnitude_of(a[i] - b[i]), 1e-30);
     }
-    // And as series: all derivatives to degree 4.
+    // The same holds for series, with all derivatives to degree 4.
     const auto space = SeriesSpace::create(6, 4);
     std::vector<Series<Extended>> z;
     const double point[] = {0.8, -0.5, 0.6, 0.3, 0.7, -0.2};
@@ -67,7 +67,7 @@ TEST(ZonalGravity, HasThePrintedSignOfJ3) {
   EXPECT_LE(test::magnitude_of(potential(r) - north), 1e-32);
   EXPECT_LE(test::magnitude_of(potential(-r) - south), 1e-32);
   EXPECT_GT(potential(r), potential(-r));
-  // Mirrored space, mirrored J3.
+  // Mirroring space corresponds to mirroring J3.
   const auto mirrored = zonal_gravity({.mu = 1, .radius = 0.75, .J = {{2, 0.125}, {3, -0.0625}}});
   const std::vector<double> point{0.7, 0.4, 0.9, 0.1, 0.2, 0.3};
   const std::vector<double> image{0.7, 0.4, -0.9, 0.1, 0.2, -0.3};
@@ -128,7 +128,7 @@ TEST(MakeSystem, TakesAHamiltonianInTenLines) {
   ASSERT_TRUE(pendulum.second_order.has_value());
   EXPECT_FALSE(pendulum.vector_field.is_linear_system());
   EXPECT_TRUE(harmonic_oscillator().vector_field.is_linear_system());
-  // Its energy is kept by the flow: H at the end equals H at the start.
+  // The flow conserves its energy: H at the end equals H at the start.
   const test::Flow<double> flow{pendulum, {0.5, 0.25}, 5, 1, {}};
   const auto state = test::final_state(test::run_gauss(flow));
   EXPECT_NEAR(test::energy(pendulum, state), 0.25 * 0.25 / 2 - std::cos(0.5), 1e-14);

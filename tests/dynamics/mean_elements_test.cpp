@@ -12,9 +12,10 @@
 
 #include "hamjet/error.hpp"
 
-// Mean elements against averages of osculating ones along numerical orbits, by an integrator and a
-// force that share nothing with the code under test, against a closed form on circular orbits, and
-// against themselves: what they leave out is of second order in J2.
+// Mean elements are compared with averages of osculating elements along numerical orbits, with a
+// closed form on circular orbits, and with each other. The integrator and the force of the orbits
+// share nothing with the code under test. The terms that mean elements leave out are of second
+// order in J2.
 
 namespace hamjet {
 namespace mean_elements_test {
@@ -36,7 +37,7 @@ State numbers(const CartesianState& state) {
   return x;
 }
 
-/// Elements that are defined on circles too: a, e cos w, e sin w, i, node, w + M.
+/// Elements that are also defined on circles: a, e cos w, e sin w, i, node, w + M.
 std::array<double, 6> elements_of(const State& x) {
   const double r = std::hypot(x[0], x[1], x[2]);
   const double v2 = x[3] * x[3] + x[4] * x[4] + x[5] * x[5];
@@ -76,7 +77,7 @@ void accelerate(const State& x, State& rate, double J2) {
   }
 }
 
-/// States at equal times of one osculating revolution, the end left out.
+/// States at equal time steps over one osculating revolution, without the end.
 std::vector<State> revolution(const State& start, int count, double J2) {
   namespace odeint = boost::numeric::odeint;
   const double a = elements_of(start)[0];
@@ -111,8 +112,8 @@ std::vector<Orbit> orbits() {
           {"retrograde", start_of(9000, 0.2, 140, -60, 250, 300)}};
 }
 
-/// The first-order size of J2 in angles, which goes with the square of the parameter, and in the
-/// semi-major axis, which goes with the energy at perigee.
+/// The size of the first-order effect of J2 on angles, which goes with the square of the parameter,
+/// and on the semi-major axis, which goes with the energy at perigee.
 struct FirstOrder {
   double angles = 0;
   double axis = 0;
@@ -125,8 +126,8 @@ FirstOrder first_order(const State& start, double J2) {
   return {k / (p * p), k * x[0] / (perigee * perigee * perigee)};
 }
 
-/// How many times second-order terms may be the product of two first-order sizes: the terms of
-/// Brouwer's second order have coefficients up to 10.
+/// The largest allowed ratio of second-order terms to the product of two first-order sizes: the
+/// terms of Brouwer's second order have coefficients up to 10.
 constexpr double most_times = 10;
 
 TEST(MeanElements, BothWaysAreInverseToRounding) {
@@ -140,8 +141,8 @@ TEST(MeanElements, BothWaysAreInverseToRounding) {
   }
 }
 
-// Along a revolution the mean a, e, i, node and w stay but for second-order terms and the secular
-// motion of node and perigee, where the osculating ones swing by the first order.
+// Along a revolution the mean a, e, i, node and w are constant except for second-order terms and
+// the secular motion of node and perigee, while the osculating elements vary by first-order terms.
 TEST(MeanElements, StayAlongARevolution) {
   for (const Orbit& orbit : orbits()) {
     const double J2 = earth().J2;
@@ -191,8 +192,8 @@ TEST(MeanElements, AreAveragesOfTheOsculatingOnes) {
   }
 }
 
-// What is left out is of second order: with half of J2 the mean semi-major axis along a revolution
-// swings by a quarter.
+// The remaining terms are of second order: with half of J2 the mean semi-major axis varies along a
+// revolution by a quarter as much.
 TEST(MeanElements, LeaveOutSecondOrder) {
   for (const Orbit& orbit : orbits()) {
     const auto swing = [&](double J2) {

@@ -10,8 +10,8 @@
 #include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
-// The stiff mechanical models: their Hamiltonians by hand, their vector fields by differences of
-// these, and what their flows must keep.
+// The stiff mechanical models: their Hamiltonians are written by hand, their vector fields are
+// compared with differences of these, and their flows must conserve the known invariants.
 
 namespace hamjet {
 namespace {
@@ -146,8 +146,8 @@ TEST(SpringPendulum, HasTheFrequenciesOfSmallOscillations) {
   }
 }
 
-// About the origin the soft springs do nothing to first order: the stretches of the stiff springs
-// oscillate with the frequency omega, their centres move freely.
+// To first order about the origin the soft springs have no effect: the stretches of the stiff
+// springs oscillate with the frequency omega, and their centres move freely.
 TEST(FermiPastaUlam, HasTheFrequencyOfTheStiffSprings) {
   const double omega = 50, t = 0.7;
   const test::Flow<double> flow{fermi_pasta_ulam(omega, 2), std::vector<double>(8, 0), t, 1, {}};
@@ -164,7 +164,7 @@ TEST(FermiPastaUlam, HasTheFrequencyOfTheStiffSprings) {
   }
 }
 
-// Two rotations, each with the frequency of its own spring.
+// The flow is two rotations, each with the frequency of its own spring.
 TEST(OscillatorPair, IsTwoRotations) {
   const double m = 2, t = 3;
   const double stiffnesses[] = {0.5, 5000};

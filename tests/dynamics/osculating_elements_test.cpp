@@ -14,7 +14,7 @@ namespace {
 using Vector = std::array<Extended, 3>;
 
 constexpr double earth_mu = 398600.4405;
-/// A few units in the last of 113 bits.
+/// The tolerance is a few units in the last place of 113 bits.
 const Extended round_off = Extended(1e-32);
 
 Extended pi() { return boost::math::constants::pi<Extended>(); }

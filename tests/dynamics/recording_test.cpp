@@ -20,7 +20,7 @@ std::size_t operations_of(const OperationList& list) {
   return list.operations().size() - list.inputs();
 }
 
-/// Every code at once, on three inputs near one.
+/// Uses every operation code once, on three inputs near one.
 Outputs every_operation(Inputs x) {
   const Expression a = x[0] * x[1] + 2 * x[2] - 1;
   const Expression b = square(x[1]) / (x[0] + x[2]);
@@ -41,7 +41,7 @@ TEST(Recording, FoldsZerosOnesAndConstants) {
   EXPECT_EQ(count([](Inputs x) { return Outputs{pow(x[0], Expression(1))}; }), 0u);
   EXPECT_EQ(count([](Inputs x) { return Outputs{-(-x[0])}; }), 0u);
   EXPECT_EQ(count([](Inputs x) { return Outputs{x[0] + x[1] - x[1]}; }), 0u);
-  // A vanishing factor takes all that hangs on it along: one constant is left.
+  // A vanishing factor removes everything that depends on it: one constant is left.
   const OperationList zero = record(2, [](Inputs x) { return Outputs{0 * exp(x[0]) * x[1]}; });
   EXPECT_EQ(operations_of(zero), 1u);
   EXPECT_TRUE(output_vanishes(zero, 0));
@@ -95,7 +95,7 @@ TEST(Recording, ZonalGravityCostsLessWithEachTermLeftOut) {
     EXPECT_GT(J2_alone[i], neither[i]) << i;
     EXPECT_GT(J3_alone[i], neither[i]) << i;
   }
-  // Absent and zero are the same.
+  // An absent coefficient and a zero coefficient give the same list.
   EXPECT_EQ(neither, sizes({}));
 }
 

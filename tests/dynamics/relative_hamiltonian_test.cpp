@@ -44,8 +44,8 @@ TEST(RelativeHamiltonian, OfAQuarticIsItsTaylorExpansion) {
 }
 
 TEST(RelativeHamiltonian, MovesTheJetAsTheVectorFieldDoes) {
-  // J grad H^h composed with the jet of the deviations equals the vector field on the jet less its
-  // value on the nominal (design, section 1); the paper's orbit, in extended precision.
+  // J grad H^h, composed with the jet of the deviations, equals the vector field on the jet minus
+  // its value on the nominal. The orbit is the paper's, in extended precision.
   constexpr int order = 3;
   auto flow = test::flow_of<Extended>(test::paper_orbit(), order);
   flow.duration = 4;

@@ -68,8 +68,8 @@ TEST(SliceEvaluator, EqualsTheOperatorsOfSeries) {
     const Series<double> value(
         space, std::vector<double>(evaluator.output(o), evaluator.output(o) + space->size()));
     for (int d = 0; d <= order; ++d) {
-      // Two arrangements of one expression: dozens of roundings of intermediate slices that are
-      // larger than the result's by a factor of about ten.
+      // The two arrangements of one expression differ by dozens of roundings of intermediate slices
+      // that are larger than the result by a factor of about ten.
       EXPECT_LE(test::largest_of_degree(value - expected[o], d),
                 1e3 * test::epsilon_of<double>() * (1 + test::largest_of_degree(expected[o], d)))
           << "output " << o << ", degree " << d;
@@ -108,7 +108,7 @@ TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
   for (std::size_t i = 0; i < 3; ++i) *split.input(i) = inputs[i][0];
   split.evaluate_constant_terms();
   for (int d = 1; d <= order; ++d) {
-    // What stands in the inputs' slice of this degree must not matter yet.
+    // The values in the inputs' slice of this degree must not matter yet.
     for (std::size_t i = 0; i < 3; ++i) {
       std::fill_n(split.input(i) + space->first(d), space->count(d), 1e10);
     }
@@ -136,8 +136,9 @@ TEST(SliceEvaluator, SplitsEachSliceIntoRemainderAndLinearPart) {
   }
 }
 
-/// Lists of one to seven outputs, some of them alike, constant, affine, inputs, or operands of
-/// others. In whole numbers, so without rounding, by hand: x = 1 + 2 u + v, y = 3 + u - v.
+/// Lists of one to seven outputs: some outputs are alike, constant, affine, inputs, or operands of
+/// others. Whole numbers are not rounded, and the values are computed by hand: x = 1 + 2 u + v, y =
+/// 3 + u - v.
 TEST(SliceEvaluator, FormsOutputsOfEveryKindAndNumber) {
   const auto functions = [](auto x, auto y) {
     const auto product = x * y;
@@ -187,7 +188,8 @@ TEST(SliceEvaluator, FormsOutputsOfEveryKindAndNumber) {
   }
 }
 
-/// The derivative of a root at 0 is not finite; what does not depend on it is as it would be alone.
+/// The derivative of a root at 0 is not finite; outputs that do not depend on the root are as they
+/// would be alone.
 TEST(SliceEvaluator, AnOutputThatIsNotFiniteLeavesTheOthersAlone) {
   const OperationList list = record(2, [](std::span<const Expression> x) {
     return std::vector{x[0] * x[1], sqrt(x[0]), x[0] + 2 * x[1]};
@@ -242,7 +244,7 @@ TEST(SliceEvaluator, ALowerWorkingOrderGivesTheBeginning) {
   }
 }
 
-/// u^a for all the exponents, of one u.
+/// u^a for all the exponents, from one u.
 TEST(SliceEvaluator, PowersOfOneValueAreMadeTogether) {
   for (const std::vector<double>& exponents : {std::vector<double>{-2.5, -1, -1.5, -3.5, -2},
                                                {-0.5, -3, -1.5},
@@ -261,7 +263,8 @@ TEST(SliceEvaluator, PowersOfOneValueAreMadeTogether) {
     for (std::size_t i = 0; i < exponents.size(); ++i) {
       const double a = exponents[i];
       const double power = std::pow(1.37, a);
-      // A rounding for each factor, of the root and the division two more, and of pow one.
+      // The bound counts one rounding for each factor, two more for the root and the division, and
+      // one for pow.
       const double roundings = (2 * std::abs(a) + 5) * 0.5 * std::numeric_limits<double>::epsilon();
       EXPECT_NEAR(*evaluator.output(i), power, roundings * power) << a;
       const double slope = a * power / 1.37;

@@ -7,7 +7,7 @@
 #include "hamjet/dynamics/mean_elements.hpp"
 #include "support/errors.hpp"
 
-// What has no solution is an error, never the last number of the search.
+// A problem without solution is an error; the solver never returns the last number of its search.
 
 namespace hamjet::test {
 namespace {
@@ -20,8 +20,9 @@ TEST(SolverFailures, ABracketOfNoNumbersHasNoRoot) {
                [&] { root_in_bracket(no_number, Extended(0), Extended(1), Extended(0.5)); });
 }
 
-// Kepler's equation itself. At these eccentricities the slope at perigee is as small as 0.01, and
-// rounding of the function is more in the place; a search that refuses it refuses real orbits.
+// The expected value satisfies Kepler's equation. At these eccentricities the slope at perigee is
+// as small as 0.01, so that the function's rounding is larger in terms of the place. A search that
+// refuses this rounding refuses real orbits.
 TEST(SolverFailures, RoundingWhereTheSlopeIsSmallIsNoFailure) {
   std::mt19937_64 generator(7);
   std::uniform_real_distribution<double> of_anomaly(-3.2, 3.2), of_eccentricity(0.9, 0.99);
@@ -36,7 +37,8 @@ TEST(SolverFailures, RoundingWhereTheSlopeIsSmallIsNoFailure) {
   }
 }
 
-// A J2 of half the body makes the difference of mean and osculating elements larger than they are.
+// A J2 of half the body makes the difference of mean and osculating elements larger than the
+// elements.
 TEST(SolverFailures, MeanElementsOfAFieldThatIsNoPerturbation) {
   const OblateBody body{398600.4418, 6378.137, 0.5};
   const CartesianState osculating{{6800, 100, 200}, {0.1, 5.5, 5.3}};

@@ -12,8 +12,8 @@
 #include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
-// The zonal terms against an independent evaluation in extended precision: Legendre polynomials by
-// their explicit sums, the gradient in spherical components.
+// The zonal terms are compared with an independent evaluation in extended precision, which uses
+// Legendre polynomials by their explicit sums and the gradient in spherical components.
 
 namespace hamjet {
 namespace {
@@ -87,8 +87,8 @@ std::vector<std::array<double, 3>> random_points() {
   return points;
 }
 
-/// One coefficient so large that the central attraction is small beside its term: what is measured
-/// is the term's own error.
+/// A single coefficient so large that the central attraction is small beside its term: the measured
+/// error is that of the term.
 ZonalGravity term_alone(int n) {
   ZonalGravity field{.mu = 1, .radius = 1};
   field.J[n] = 1e40;
@@ -140,7 +140,8 @@ TEST(ZonalTerms, LegendrePolynomialsOfTheTestAreThoseOfBoost) {
   }
 }
 
-/// Every term alone is right at a thousand points; `error` is relative to the term's size.
+/// Checks that every single term is right at a thousand points; `error` is relative to the term's
+/// size.
 template <class Error>
 void expect_right_to_one_part_in_1e14(const Error& error) {
   const auto points = random_points();
@@ -193,7 +194,7 @@ TEST(ZonalTerms, AllTogetherAreRightInExtendedPrecision) {
   const auto points = random_points();
   for (std::size_t i = 0; i < points.size(); i += 10) {
     const Point q{points[i][0], points[i][1], points[i][2]};
-    // The sums of the test lose six digits of 34.
+    // The sums of the test lose six of 34 digits.
     const Extended size = length_of(exact_force(field, q));
     EXPECT_LE(force_error<Extended>(system.second_order->force, field, q), size * 1e-27);
     const Extended potential =
@@ -231,8 +232,9 @@ TEST(ZonalTerms, ForceIsTheGradientOfTheHamiltonianAsSeries) {
   }
 }
 
-// What each coefficient adds to the operations of an evaluation: one that is absent at the top adds
-// none, one that is absent below costs the recursion's steps, and odd ones a product with z.
+// The number of operations that each coefficient adds to an evaluation: an absent highest
+// coefficient adds none, an absent lower coefficient costs the recursion's steps, and odd
+// coefficients cost a product with z.
 TEST(ZonalTerms, CostWhatTheTableSays) {
   const auto operations = [](const std::vector<int>& present) {
     ZonalGravity field{.mu = 1, .radius = 0.9};

@@ -51,7 +51,8 @@ TEST(ConjunctionDataMessage, IsReadWithItsUnits) {
 TEST(ConjunctionDataMessage, IsTheSameWhenItIsWrittenAndReadAgain) {
   const std::string once = cdm_text(read_cdm("a.cdm", conjunction()));
   EXPECT_EQ(cdm_text(read_cdm("b.cdm", once)), once);
-  // As an independent reader of KVN would take it: keyword, equals sign, value, unit in brackets.
+  // The expected text is as an independent reader of KVN would take it: keyword, equals sign,
+  // value, unit in brackets.
   EXPECT_NE(once.find("CRDOT_T                              = -2.476000000000000e+00 [m**2/s]\n"),
             std::string::npos);
   EXPECT_NE(once.find("MISS_DISTANCE                        = 7.150000000000000e+02 [m]\n"),
@@ -106,14 +107,14 @@ TEST(ConjunctionDataMessage, IsTheSameInXml) {
          "extra: unknown element in data");
   refuse("</segment>\n<segment>", "</segment>\n<segment/>\n<segment>", "body: incomplete");
   refuse("<OBJECT>OBJECT2", "<OBJECT>OBJECT3", "must be OBJECT2 here");
-  // Within a combined message, where one conjunction alone can be meant.
+  // The message is within a combined message, which must contain a single conjunction.
   const std::string body = xml.substr(xml.find("<cdm"));
   EXPECT_EQ(cdm_text(read_cdm("a.xml", "<ndm>" + body + "</ndm>")), cdm_text(message));
   test::expect_error([&] { read_cdm("a.xml", "<ndm>" + body + body + "</ndm>"); },
                      ErrorKind::input_output, {"cdm: got a second cdm"}, "two");
 }
 
-// What is optional and not used does not keep the covariance from being read.
+// A mistake in optional numbers that are not used does not keep the covariance from being read.
 TEST(ConjunctionDataMessage, WhatIsWrongWithUnusedNumbersIsADoubt) {
   std::string text = test::changed(conjunction(), "-14692.0        [m/s]", "-14692.0        [m]");
   text = test::changed(text, "4.835E-05", "1.5");
@@ -132,7 +133,7 @@ TEST(ConjunctionDataMessage, WhatIsWrongWithUnusedNumbersIsADoubt) {
                 "used",
                 "a.cdm:23: COLLISION_PROBABILITY: no probability, got 1.5, must be from 0 to 1; it "
                 "is not used"}));
-  // What is wanted may not be empty.
+  // A required number may not be empty.
   test::expect_error([&] { read_cdm("a.cdm", test::changed(text, "4.142D+01 [m**2]", "")); },
                      ErrorKind::input_output, {"CR_R: empty"}, "CR_R");
 }

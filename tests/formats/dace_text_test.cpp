@@ -29,7 +29,7 @@ constexpr const char* sine = R"(     I  COEFFICIENT              ORDER EXPONENTS
 ------------------------------------------------
 )";
 
-// Columns as core/daceio.c of DACE has them: "%6u  %24.16e%4u " and " %2u" an exponent.
+// The columns follow core/daceio.c of DACE: "%6u  %24.16e%4u " and " %2u" for each exponent.
 constexpr const char* two_polynomials = R"([[[ 2 vector
      I  COEFFICIENT              ORDER EXPONENTS
      1    1.5000000000000000e+00   0   0  0
@@ -58,11 +58,12 @@ TEST(DaceTextTest, ReadsWhatDacePrinted) {
   Extended factorial = 1;
   for (int k = 0; k < 20; ++k) {
     if (k > 0) factorial *= k;
-    // The closed form; DACE's own recurrence is wrong by a unit in the last place here and there.
+    // The expected value is the closed form; DACE's own recurrence is wrong by a unit in the last
+    // place for some terms.
     const double right = k % 2 == 0 ? 0 : static_cast<double>((k % 4 == 1 ? 1 : -1) / factorial);
     EXPECT_NEAR(polynomials[0][static_cast<std::size_t>(k)], right, 4e-16 * std::abs(right)) << k;
   }
-  // Written again it is what DACE printed.
+  // Written again, the text is identical to DACE's.
   EXPECT_EQ(dace_text(extended(polynomials)), std::string("[[[ 1 vector\n") + sine + "]]]\n");
 }
 
@@ -142,7 +143,7 @@ TEST(DaceTextTest, DamagedText) {
   expect_refused("]]]", "]]", {":9:", "must be ]]]"});
   expect_refused("]]]\n", "]]]\nmore\n", {":10:", "nothing but notes"});
   expect_refused("EXPONENTS", "EXPONENT", {":2:", "head of a polynomial"});
-  // The head of COSY INFINITY.
+  // The header of COSY INFINITY.
   expect_refused("COEFFICIENT              O", "COEFFICIENT            O", {":2:", "head"});
   expect_refused("-------\n  ", "-------\n  more\n  ", {":7:"});
   expect_refused("ZERO\n", "ZERO\n     1    1.5000000000000000e+00   0   0  0\n",
@@ -173,7 +174,7 @@ TEST(DaceTextTest, DamagedText) {
 TEST(DaceTextTest, CutAnywhere) {
   const std::string text = two_polynomials;
   const auto space = SeriesSpace::create(2, 3);
-  // Without its last line end the text is whole.
+  // The text is whole without its last line end.
   for (std::size_t length = 0; length + 1 < text.size(); ++length) {
     expect_error([&] { read_dace_text("jet.dace", text.substr(0, length), space); },
                  ErrorKind::input_output, {"jet.dace:"}, std::to_string(length));

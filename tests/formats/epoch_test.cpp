@@ -62,7 +62,8 @@ TEST(Epoch, WhatIsNoMomentIsRefused) {
 }
 
 TEST(Epoch, SecondsAreAddedOnTheCalendar) {
-  // A thousand million seconds after the start of 1970; a leap day; a year with none.
+  // The cases are a thousand million seconds after the start of 1970, a leap day, and a year
+  // without a leap day.
   EXPECT_EQ(later(epoch("1970-01-01T00:00:00"), 1e9), epoch("2001-09-09T01:46:40"));
   EXPECT_EQ(later(epoch("2024-02-28T23:59:59.5"), 1), epoch("2024-02-29T00:00:00.5"));
   EXPECT_EQ(later(epoch("2025-01-01T00:00:00"), 365 * 86400), epoch("2026-01-01T00:00:00"));

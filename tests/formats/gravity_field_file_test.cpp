@@ -85,8 +85,8 @@ TEST(GravityFieldFile, TakesHeadersOfOtherKinds) {
   const auto read = [](const std::string& text) {
     return parse_gravity_field("field.gfc", text, {0, {5}});
   };
-  // Another body's constant has a shorter name, a series a product_name; lines of Windows; no
-  // standard deviations, or those of both kinds.
+  // The constant of another body has a shorter name, and a series has a product_name. Lines may end
+  // as on Windows, and standard deviations may be absent or of both kinds.
   EXPECT_EQ(read(changed_field("earth_gravity_constant", "gravity_constant")).mu_km3_s2,
             398600.4415);
   EXPECT_EQ(read(changed_field("modelname", "product_name")).model_name, "EIGEN-5C");
@@ -116,7 +116,7 @@ TEST(GravityFieldFile, RefusesWhatVariesWithoutAnEpochOnlyWhereItIsAskedFor) {
   }
 }
 
-// An exponent that no integer holds: found by fuzzing, which saw Boost's reader overflow.
+// An exponent that no integer holds. Fuzzing found that it made Boost's reader overflow.
 TEST(GravityFieldFile, RefusesAnExponentWithoutEnd) {
   expect_field_refused(
       changed_field("0.686821280969D-07", "0.00d000000000020000000000000000000000"),
@@ -194,7 +194,8 @@ TEST(GravityFieldFile, RefusesWhatIsDamagedByFileAndLine) {
   expect_field_refused(eigen, {"the file ends without C(7,0)"}, {0, {7}});
 }
 
-// Cut off anywhere, it is refused or, after the last record asked for, the same field.
+// A file that is cut off anywhere is refused or, if the cut is after the last requested record,
+// gives the same field.
 TEST(GravityFieldFile, CutOffAnywhere) {
   const std::string whole = eigen;
   const GravityField field = parse_gravity_field("field.gfc", whole, {0, {5}});
@@ -208,7 +209,7 @@ TEST(GravityFieldFile, CutOffAnywhere) {
   }
 }
 
-// Against the digits that the scenes molniya.toml and others print, of the same model.
+// The coefficients are compared with the digits of the same model in molniya.toml and other scenes.
 TEST(GravityFieldFile, TheShippedExcerptHasTheZonalsOfEGM96) {
   const GravityField field = read_gravity_field(egm96, {20});
   EXPECT_EQ(field.model_name, "EGM96");
@@ -248,7 +249,7 @@ class SceneWithGravityFile : public testing::Test {
     file_ = (directory_.path() / "scene.toml").string();
   }
 
-  /// The sample's field replaced by these lines, read as if it stood beside field.gfc.
+  /// Reads the sample with its field replaced by these lines, as if it stood beside field.gfc.
   Scene read(const std::string& lines, const std::vector<Override>& overrides = {}) const {
     return parse_scene(
         changed(orbit, "mu_km3_s2 = 398600.4415\nradius_km = 6378\nJ2 = 1e-3\n", lines), file_,
@@ -276,7 +277,8 @@ TEST_F(SceneWithGravityFile, TakesTheFieldFromTheFileBesideIt) {
   EXPECT_EQ(scene.system.gravity_file->file, "field.gfc");
   EXPECT_EQ(scene.system.gravity_file->model_name, "EIGEN-5C");
   EXPECT_EQ(scene.system.gravity_file->tide_system, "zero_tide");
-  // An absolute name, and an override, which is relative to the scene too.
+  // The file may have an absolute name, or be given by an override, which is relative to the scene
+  // too.
   EXPECT_EQ(read(fmt::format("gravity_file = '{}'\nhighest_zonal = 20\n", egm96.string()))
                 .system.J.highest_present(),
             20);
@@ -310,7 +312,7 @@ TEST_F(SceneWithGravityFile, KeysAreChecked) {
   expect_error(file + "zonals = [5, 5]\n", {"zonals.1: out of order"});
   expect_error("gravity_file = 3\nzonals = [5]\n", {"gravity_file: wrong type"});
   expect_error("gravity_file = \"\"\nzonals = [5]\n", {"gravity_file: no path"});
-  // What is wrong with the file names the file, and its line.
+  // An error in the file names the file and its line.
   expect_error("gravity_file = \"none.gfc\"\nzonals = [5]\n",
                {":5:16: system.gravity_file: ", "none.gfc cannot be read"},
                ErrorKind::input_output);

@@ -37,7 +37,7 @@ class JetFileTest : public ::testing::Test {
     scene.output.formats = {"dace"};
     if (hdf5_available()) scene.output.formats.emplace_back("hdf5");
     PropagationResult result = propagate(scene);
-    // The kinds of zero are told apart.
+    // Zeros of different signs are distinguished.
     for (RunResult& run : result.runs) {
       if (run.failure.empty()) run.jet[0][5] = -Extended(0);
     }
@@ -71,7 +71,7 @@ class JetFileTest : public ::testing::Test {
     }
   }
 
-  /// From every file of every run the same comes back as from the results, and was computed.
+  /// Every file of every run gives back the computed results.
   void expect_round_trips(const std::vector<Override>& overrides, bool with_dace = true) {
     const PropagationResult result = store(overrides);
     for (const RunResult& run : result.runs) {
@@ -114,7 +114,7 @@ TEST_F(JetFileTest, FewerComponentsAndVariables) {
 
 TEST_F(JetFileTest, ExtendedPrecision) {
   expect_round_trips({{"precision", "\"extended\""}}, false);
-  // DACE's text has the nearest doubles, and says so.
+  // DACE's text has the nearest doubles, and the file says that it has.
   const StoredJet right = read_stored_jet(directory_);
   const StoredJet rounded = read_jet_file(directory_ / "gauss8" / "jet.dace");
   EXPECT_EQ(rounded.precision, Precision::double_precision);
@@ -140,7 +140,7 @@ TEST_F(JetFileTest, Refusals) {
   const std::size_t last = good.rfind("     I");
   test::put(directory_ / "copy.dace", changed(good.substr(0, last) + "]]]\n", "[[[ 6", "[[[ 5"));
   expect_refused(directory_ / "copy.dace", {"copy.dace: has 5 polynomials, must have 6"});
-  // Another first coefficient is not the nominal's final state.
+  // A changed first coefficient differs from the nominal's final state.
   const std::size_t first = good.find("     1  ") + 10;
   test::put(directory_ / "copy.dace", std::string(good).replace(first, 3, "9.9"));
   expect_refused(directory_ / "copy.dace", {"nominal_final: the x is not that of"});
@@ -171,7 +171,7 @@ class JetHdf5Test : public JetFileTest {
 TEST_F(JetHdf5Test, TheSameBytesAtAnotherTime) {
   const PropagationResult result = store();
   const std::string bytes = test::content(directory_ / "jets.h5");
-  // HDF5 keeps seconds.
+  // HDF5 stores times in whole seconds.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   EXPECT_EQ(jets_hdf5(result), bytes);
 }
@@ -207,7 +207,7 @@ TEST_F(JetHdf5Test, CutAnywhere) {
   }
   test::put(file, good.substr(0, good.size() - 1));
   expect_refused(file, {"jets.h5: was cut or changed"});
-  // Longer, it may be another program's addition: the jet has a checksum of its own.
+  // A longer file may be another program's addition, because the jet has its own checksum.
   const StoredJet longer = read_jets_hdf5("jets.h5", good + "\n");
   EXPECT_EQ(longer.notes.size(), 1U);
   expect_same(longer, read_jets_hdf5("jets.h5", good));
@@ -227,7 +227,8 @@ TEST_F(JetHdf5Test, AnyBitTurned) {
     std::size_t told = 0;
     if (is_in_size && std::from_chars(&bad[size_place], &bad[512], told).ptr[0] == '\n' &&
         told < good.size() - 512) {
-      // A size that is too small tells of additions, and the jet is compared with its own checksum.
+      // A size that is too small indicates additions, and the jet is compared with its own
+      // checksum.
       const StoredJet read = read_jets_hdf5("jets.h5", bad);
       EXPECT_EQ(read.notes.size(), 1U) << place;
       expect_same(read, right);
@@ -238,7 +239,7 @@ TEST_F(JetHdf5Test, AnyBitTurned) {
   }
 }
 
-// Without the block of hamjet nothing says that it was cut but HDF5 itself.
+// Without hamjet's block only HDF5 itself can notice that the file was cut.
 TEST_F(JetHdf5Test, CutWithoutTheBlock) {
   store();
   const std::string image = test::content(directory_ / "jets.h5").substr(512);

@@ -55,7 +55,7 @@ TEST(OrbitMessage, TheStandardsParametersAreRead) {
             (std::vector<std::string>{"Keplerian elements", "spacecraft parameters"}));
 }
 
-/// All bits but the sign's at random, which reaches the ends of double precision.
+/// Random bits except for the sign bit, which reach the ends of double precision.
 double any_number(std::mt19937_64& random) {
   while (true) {
     const std::uint64_t bits = random();
@@ -115,7 +115,7 @@ TEST(OrbitMessage, WhatIsWrittenIsReadBackToItsDigits) {
         }
       }
     }
-    // Sixteen digits are coarser than binary64 nowhere: the second text is the first.
+    // Sixteen digits are nowhere coarser than binary64, so that the second text equals the first.
     OrbitEphemerisMessage again = read;
     again.comments = message.comments;
     for (EphemerisSegment& segment : again.segments) segment.comments = {"A comment"};
@@ -142,7 +142,7 @@ TEST(OrbitMessage, LineEndsAndByteOrderMarksDoNotMatter) {
     ASSERT_EQ(message.segments.size(), 2U);
     EXPECT_EQ(message.segments[1].states.size(), 4U);
   }
-  // Lines are counted as editors do.
+  // Lines are counted as editors count them.
   for (const char* end : {"\r\n", "\r", "\n\r"}) {
     const std::string damaged = changed(with_ends(end), "TIME_SYSTEM", "TIME_SISTEM");
     expect_error([&] { read_oem("a.oem", damaged); }, ErrorKind::input_output,
@@ -297,7 +297,7 @@ TEST(OrbitMessage, ExponentsOfFortranAreNumbers) {
                  changed(standard_opm, "6655.9942  ", "1D2D3"), {"X: no number, got \"1D2D3\""});
 }
 
-// What is not used does not keep the state from being read.
+// A mistake in numbers that are not used does not keep the state from being read.
 TEST(OrbitMessage, WhatIsWrongWithNumbersThatAreNotUsedIsADoubt) {
   std::string text = changed(standard_opm, "1913.000             [kg]", "1913 [g]");
   text = changed(text, "0.020842611", "0.020842611 [n/a]");
@@ -310,7 +310,8 @@ TEST(OrbitMessage, WhatIsWrongWithNumbersThatAreNotUsedIsADoubt) {
                 "a.opm:34: MASS: wrong unit, got \"[g]\", must be [kg]; it is not used",
                 "a.opm:26: ECCENTRICITY: wrong unit, got \"[n/a]\", must be without a unit; it is "
                 "not used"}));
-  // Nor does the degree of an interpolation that is not done, or a text in another language.
+  // The degree of an interpolation that is not done does not keep it from being read either, nor
+  // does a text in another language.
   std::string ephemeris =
       changed(standard_oem, "INTERPOLATION_DEGREE = 7", "INTERPOLATION_DEGREE = seven");
   ephemeris = changed(ephemeris, "INTERPOLATION = HERMITE", "INTERPOLATION = H\xc3\xa9rmite");
@@ -327,7 +328,8 @@ TEST(OrbitMessage, ElementsAreReadBesideTheState) {
   EXPECT_EQ(elements->line, 25U);
 }
 
-// A file that is named by mistake, or by somebody else, tells nothing of itself.
+// An error about a file of another kind, named by mistake or by somebody else, quotes nothing of
+// the file.
 TEST(OrbitMessage, AFileOfAnotherKindIsNamedAndNotQuoted) {
   const auto problem = [](const std::string& text) {
     try {

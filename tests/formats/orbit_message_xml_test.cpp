@@ -50,7 +50,7 @@ TEST(OrbitMessageNotation, XmlIsReadOrRefusedWithItsOption) {
   }
 }
 
-// A combined message holds both examples of the standard, one of them twice, and others.
+// A combined message holds both examples of the standard, one of them twice, and other messages.
 TEST_F(OrbitMessageXml, OfACombinedMessageTheKindThatIsWantedIsRead) {
   const auto body = [](const std::string& text) { return text.substr(text.find("?>") + 2); };
   const std::string oem = body(standard_oem_xml), opm = body(standard_opm_xml);
@@ -72,8 +72,8 @@ TEST_F(OrbitMessageXml, OfACombinedMessageTheKindThatIsWantedIsRead) {
   expect_refused(read_oem, combined("<eom/>"), "eom: unknown element in ndm, did you mean oem?");
 }
 
-// What is written in XML is what is written in lines, to the last digit, and marks of XML in texts
-// are texts.
+// A message written in XML is the same as in KVN, to the last digit, and marks of XML in texts are
+// escaped.
 TEST_F(OrbitMessageXml, WrittenAndReadAgainIsTheSame) {
   OrbitEphemerisMessage ephemeris = read_oem("a.oem", standard_oem);
   ephemeris.segments[0].metadata.object_name = "A & B <C> \"D\"";
@@ -116,7 +116,8 @@ TEST_F(OrbitMessageXml, TheStandardsParametersSayTheSameInBothNotations) {
   EXPECT_EQ(xml.gm_km3_s2, lines.gm_km3_s2);
   EXPECT_EQ(xml.gm_line, 33U);
   EXPECT_EQ(xml.metadata.center_name_line, 12U);
-  // Without a word of units, with lines of Windows, a byte order mark and an element of one's own.
+  // The text has no units, line ends of Windows, a byte order mark and an element of another
+  // namespace.
   std::string plain = "\xef\xbb\xbf";
   plain += changed(standard_opm_xml, "</data>",
                    "<userDefinedParameters><USER_DEFINED parameter=\"COLOUR\">red</USER_DEFINED>"
@@ -148,7 +149,7 @@ TEST_F(OrbitMessageXml, ParametersAreRefusedByLineAndElement) {
   refuse("<spacecraftParameters>",
          "<maneuverParameters><MAN_DV_1>1</MAN_DV_1></maneuverParameters><spacecraftParameters>",
          "a.xml:35: MAN_DV_1: a manoeuvre");
-  // The standard's unit of a duration, whatever is said of it, is not what is wrong.
+  // The error is not about the standard's unit of a duration, whatever the text says of it.
   refuse("<spacecraftParameters>",
          "<maneuverParameters><MAN_DURATION units=\"s\">1</MAN_DURATION></maneuverParameters>"
          "<spacecraftParameters>",

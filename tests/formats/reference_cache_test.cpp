@@ -44,7 +44,7 @@ TEST(ReferenceCache, GivesBackTheSameBits) {
   EXPECT_EQ(loaded->stages, 16);
   EXPECT_EQ(loaded->statistics.steps, 27);
   EXPECT_FALSE(cache.load("another key", space));
-  // The same key cannot serve a space of another size.
+  // A key cannot be used for a space of another size.
   EXPECT_FALSE(cache.load("key", SeriesSpace::create(2, 3)));
 }
 
@@ -54,7 +54,7 @@ TEST(ReferenceCache, TakesADamagedFileForMissing) {
   ReferenceCache cache(directory.path());
   cache.save("key", some_reference(space));
   const auto file = std::filesystem::directory_iterator(directory.path())->path();
-  // One digit of one coefficient.
+  // The test changes one digit of one coefficient.
   std::string text;
   std::getline(std::ifstream(file), text);
   const std::size_t place = text.find("33333");

@@ -108,8 +108,7 @@ TEST_F(StoredJetTest, OrdersOneToSeven) {
   }
 }
 
-// The same coefficients in another order: nothing is wrong with such a file but that it is not the
-// one that was written.
+// The same coefficients in another order make a valid file, but not the one that was written.
 TEST_F(StoredJetTest, ChangesThatMakeSenseAreRefusedAllTheSame) {
   store(planar_kepler);
   const auto swap_halves = [](const std::string& text) {
@@ -275,7 +274,7 @@ TEST_F(StoredJetTest, DamagedSummary) {
 }
 
 // Two gigabytes in place of some kilobytes (a file with a hole, which takes no room) are refused by
-// their size.
+// the file's size.
 TEST_F(StoredJetTest, TheSizeIsLookedAtBeforeTheFileIsRead) {
   constexpr std::uintmax_t two_gigabytes = std::uintmax_t{2} << 30;
   store(planar_kepler);

@@ -18,12 +18,12 @@
 namespace hamjet::io {
 namespace {
 
-/// Of a number near 5e-4, rounded to a double.
+/// The rounding of a number near 5e-4 to a double.
 constexpr double rounding = 1.1e-19;
 
 const double half_root = std::sqrt(0.5);
 
-/// Unnormalised, so that J2 = -C(2,0) to the digit.
+/// The coefficients are unnormalised, so that J2 = -C(2,0) to the digit.
 const std::string head = R"(begin_of_head
 product_type gravity_field
 modelname MOVING
@@ -82,7 +82,7 @@ TEST(TimeVariableField, Format1IsItsFormula) {
   EXPECT_NEAR(C2(format_1, "2005-04-02T07:30:00"), -4.84e-4 + 0.25e-11 + 3e-11, rounding);
   EXPECT_NEAR(C2(format_1, "2005-02-15T15:45:00"),
               -4.84e-4 + 0.125e-11 + half_root * (3e-11 + 5e-11) + 2e-11, rounding);
-  // Before t0 it holds too.
+  // The formula holds before t0 too.
   EXPECT_NEAR(C2(format_1, "2004-07-02T09:00:00"), -4.84e-4 - 0.5e-11 - 5e-11, rounding);
   EXPECT_NEAR(C2(format_1, "2004-10-01T16:30:00"), -4.84e-4 - 0.25e-11 - 3e-11, rounding);
   // The old name of a trend, and a t0 that has a time.
@@ -94,7 +94,7 @@ TEST(TimeVariableField, Format1IsItsFormula) {
 TEST(TimeVariableField, Format2HoldsWithinItsIntervals) {
   EXPECT_NEAR(C2(format_2, "2000-01-01T00:00:00"), -4.84e-4 + 5e-11, rounding);
   EXPECT_NEAR(C2(format_2, "2000-07-01T15:00:00"), -4.84e-4 + 0.5e-11 - 5e-11, rounding);
-  // Five Julian years after the first t0, in the first interval still.
+  // The moment is five Julian years after the first t0, and still in the first interval.
   EXPECT_NEAR(C2(format_2, "2004-12-31T06:00:00"), -4.84e-4 + 5e-11 + 5e-11, rounding);
   // t1 belongs to the next interval; the yearly term counts from its own t0, 5 years and 30 hours.
   const double phase = 2 * std::numbers::pi * 30 / (365.25 * 24);
@@ -193,8 +193,8 @@ TEST(TimeVariableField, RefusesRecordsThatAreDamaged) {
       ":14: acos: has 9 columns, must have 8 (key, degree, order, C, S, t0, t1, period)");
 }
 
-// The field of a point mass at z on the axis, less that of one at the origin, is the term of degree
-// 1 far away: its C10 must give z back.
+// The field of a point mass at z on the axis minus that of a point mass at the origin is, far away,
+// the term of degree 1: its C10 must give z back.
 TEST(TimeVariableField, TheOriginIsWhereC10PutsIt) {
   const double z_km = 0.25, radius_km = 6378.13646, r = 1e6, latitude = 0.7;
   const double distance = std::hypot(r * std::cos(latitude), r * std::sin(latitude) - z_km);
@@ -209,7 +209,7 @@ TEST(TimeVariableField, TheOriginIsWhereC10PutsIt) {
                                  fmt::format("gfc 1 0 {:.15e} 0 0 0\n", C10 / std::sqrt(3.0));
   EXPECT_NEAR(offset(normalised, {0, {3}}) / z_km, 1, 1e-6);
   EXPECT_EQ(offset(format_1, {0, {3}}), 0);
-  // One that moves is where it is at the epoch; without an epoch it is not known.
+  // An origin that moves is taken at the epoch; without an epoch it is unknown.
   const std::string moving = format_1 + "gfct 1 0 1e-9 0 20050101\ntrnd 1 0 1e-10 0\n";
   EXPECT_NEAR(offset(moving, at("2006-01-01T06:00:00")), 1.1e-9 * radius_km, 1e-15);
   EXPECT_FALSE(parse_gravity_field("f", moving, {0, {3}}).origin_offset_km.has_value());
@@ -247,7 +247,7 @@ TEST_F(SceneAtAnEpoch, TakesItFromItsKeyOrFromWhatDatesTheNominal) {
   EXPECT_NEAR(dated.system.J[2], a_year_later, rounding);
   ASSERT_TRUE(dated.system.gravity_file.has_value());
   EXPECT_EQ(dated.system.gravity_file->epoch, "2006-01-01T06:00:00.000000000000");
-  // The key goes before, so that a field may be that of another moment than the start.
+  // The key takes precedence, so that a field may be that of another moment than the start.
   const Scene keyed = read("zonals = [2]\ngravity_epoch = \"2005-001T00:00:00\"\n", ephemeris);
   EXPECT_NEAR(keyed.system.J[2], 4.84e-4 - 5e-11, rounding);
   EXPECT_EQ(keyed.system.gravity_file->epoch, "2005-01-01T00:00:00.000000000000");

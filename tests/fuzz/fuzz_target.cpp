@@ -27,8 +27,8 @@ void check_line(const std::string& message, const Refusal& refusal) {
   }
 }
 
-/// Errors that are said together are a line each; behind the last a line may count the others, and
-/// then come warnings.
+/// Errors that are printed together take one line each. A last line may count the errors that are
+/// not printed, and warnings follow.
 void check_message(const std::string& message, const Refusal& refusal) {
   std::size_t lines = 0;
   for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {

@@ -17,7 +17,8 @@ namespace {
 const std::vector<std::string_view> columns = {"R_m", "T_m", "N_m", "vR_m_s", "vT_m_s", "vN_m_s"};
 constexpr const char* name = "deviations.csv";
 
-/// The whole table, whose text comes in pieces of so many bytes and is read so many rows at a time.
+/// Reads the whole table; the text comes in pieces of the given number of bytes, and the rows are
+/// read in groups of the given number.
 io::NumberTable read(const char* file, std::string_view text, std::size_t bytes, std::size_t rows) {
   io::NumberTableReader reader(file, columns, [&](std::span<char> room) {
     const std::size_t count = std::min({room.size(), text.size(), bytes});

@@ -29,7 +29,7 @@ void check(const io::OrbitEphemerisMessage& message) {
   require(io::oem_text(io::read_oem("again.oem", text)) == text, "written again it is another");
 }
 
-/// What is wrong with numbers that are not used is said as errors are.
+/// Doubts about numbers that are not used have the form of errors.
 void check_doubts(const std::vector<std::string>& doubts) {
   for (const std::string& doubt : doubts) {
     require(doubt.starts_with("orbit:") || doubt.starts_with("again."), "a doubt without a place");

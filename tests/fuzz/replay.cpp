@@ -34,7 +34,7 @@ using Generator = std::mt19937_64;
 constexpr std::size_t longest_input = 16384;
 constexpr rlim_t most_memory = rlim_t{1} << 30;
 
-/// Below `count`; the standard's distributions differ between libraries.
+/// A random number below `count`; the standard's distributions differ between libraries.
 std::size_t below(std::size_t count, Generator& random) { return random() % count; }
 
 std::string content(const std::filesystem::path& file) {
@@ -98,7 +98,7 @@ class Mutator {
 
   std::size_t place(const std::string& text) { return below(text.size() + 1, random_); }
 
-  /// A run of letters, digits and what numbers hold, from a random place on.
+  /// A run of letters, digits and other characters of numbers, from a random place on.
   Range word(const std::string& text) {
     constexpr const char* letters =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_+-.";
@@ -123,10 +123,10 @@ class Mutator {
         if (!text.empty())
           text[below(text.size(), random_)] ^= static_cast<char>(1 << below(8, random_));
         break;
-      case 1:  // a byte more
+      case 1:  // one byte more
         text.insert(place(text), 1, static_cast<char>(below(256, random_)));
         break;
-      case 2:  // some bytes less
+      case 2:  // some bytes fewer
         text.erase(place(text), 1 + below(8, random_));
         break;
       case 3:
@@ -144,7 +144,7 @@ class Mutator {
       case 6:
         text.erase(a_line.begin, a_line.length);
         break;
-      case 7:  // a line twice, or elsewhere
+      case 7:  // one line twice, or at another place
         text.insert(line(text).begin, text.substr(a_line.begin, a_line.length));
         break;
       case 8:  // the end of another seed
@@ -172,8 +172,8 @@ class Mutator {
   Generator random_{20261121};
 };
 
-/// The input at work and where it is kept if the program ends early; for the handler, which may
-/// neither allocate nor lock.
+/// The current input and the file in which it is kept if the program ends early. They are for the
+/// handler, which may neither allocate nor lock.
 std::string_view input_at_work;
 std::string kept_input;
 
@@ -189,9 +189,10 @@ void run(const std::string& input) {
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
 }
 
-/// Memory beyond this is a finding: an allocation fails, with an exception of no known kind.
+/// Memory beyond this limit is a finding: an allocation fails with an exception of an unexpected
+/// kind.
 void limit_memory() {
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer reserves terabytes
   const rlimit limit{most_memory, most_memory};
   if (::setrlimit(RLIMIT_AS, &limit) != 0) throw std::runtime_error("no limit of memory");
 #endif

@@ -160,7 +160,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Refusal refusal{{ErrorKind::scene, ErrorKind::too_large, ErrorKind::usage},
                         {"scene.toml", "--set "},
                         io::most_errors_said};
-  // What is wrong with a file that the scene names begins with its name, which may be any.
+  // An error in a file that the scene names begins with the name of the file, which may be any
+  // text.
   if (text.find("_file") != std::string_view::npos) {
     refusal.kinds.push_back(ErrorKind::input_output);
     refusal.beginnings.emplace_back("");

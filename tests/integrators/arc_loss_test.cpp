@@ -9,8 +9,8 @@
 #include "hamjet/integrators/arc_splitting.hpp"
 #include "support/flow.hpp"
 
-// A composition that would lose digits is not given: the number of arcs that was asked for is
-// refused, and the plan's own number becomes 1.
+// A composition that would lose digits is not computed: a requested number of arcs is refused, and
+// the plan's own number becomes 1.
 
 namespace hamjet {
 namespace {
@@ -64,7 +64,7 @@ TEST(ArcLoss, MakesAutoStayUnsplitAndSayWhy) {
       << arcs.plan.reason;
   EXPECT_NE(arcs.plan.reason.find(", where the unsplit run is wrong by "), std::string::npos)
       << arcs.plan.reason;
-  // Bit for bit the run without arcs.
+  // The result equals the run without arcs, bit for bit.
   IntegrationStatistics whole;
   const auto unsplit = test::run_gauss(flow, method, &whole);
   EXPECT_EQ(statistics.steps, whole.steps);

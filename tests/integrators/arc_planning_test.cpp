@@ -6,7 +6,7 @@
 #include "hamjet/integrators/arc_splitting.hpp"
 #include "support/flow.hpp"
 
-// How many arcs a plan takes, and that they are the arcs that are taken.
+// Tests the number of arcs in a plan, and that a run takes this number.
 
 namespace hamjet {
 namespace {
@@ -30,11 +30,11 @@ TEST(ArcPlanning, DecidesFromTheCounts) {
   EXPECT_GT(of_all.speed_ups[1], 1.7);
   EXPECT_GT(of_all.speed_ups[2], 3.0);
   EXPECT_LT(of_all.speed_ups[0], 1.0);
-  // A composition in lanes: see HornerMultiplyAdds; and little beside.
+  // A composition in lanes, see HornerMultiplyAdds, and little other work.
   EXPECT_GE(plan.composition_multiply_adds, 8 * 381640);
   EXPECT_LE(plan.composition_multiply_adds, 1.2 * 8 * 381640);
-  // At order 1 the nominal is most of the work, a linear system has no other; three variables of
-  // six leave later arcs four times the work.
+  // At order 1 the nominal is most of the work, and a linear system has no other work. With three
+  // of six variables later arcs cost four times the work.
   flow.order = 1;
   EXPECT_EQ(plan_arcs(test::problem_of(flow), adaptive(8, 1e-12), std::nullopt).arcs, 1U);
   flow.order = 4;

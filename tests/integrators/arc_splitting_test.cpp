@@ -152,7 +152,7 @@ TEST(ArcSplitting, HasTheErrorOfTheUnsplitRun) {
     for (int d = 0; d <= 4; ++d) {
       const double error = test::relative_error(jet, test::paper_orbit_reference(), d);
       const double unsplit_error = test::relative_error(whole, test::paper_orbit_reference(), d);
-      // Another rounding, of a size of its own.
+      // The rounding differs, and its size is given separately.
       EXPECT_LE(error, 3 * unsplit_error + 2e-13) << "degree " << d << ", arcs " << arcs;
       EXPECT_LE(error, 2e-12) << "degree " << d << ", arcs " << arcs;
     }
@@ -189,7 +189,7 @@ TEST(ArcSplitting, StaysSymplectic) {
 }
 
 TEST(ArcSplitting, OfSomeVariablesOnly) {
-  // Later arcs vary in all six, the jet in two.
+  // Later arcs vary in all six variables, the jet in two.
   Flow<double> flow = short_orbit(4);
   flow.variables = {1, 3};
   const auto problem = test::problem_of(flow);
@@ -201,7 +201,7 @@ TEST(ArcSplitting, OfSomeVariablesOnly) {
 TEST(ArcSplitting, OfOtherSystems) {
   const Flow<double> well{double_well(), {0.9, 0.1}, 8, 6, {}};
   const Flow<double> pair{oscillator_pair(1, 1, 2), {1, 0.5, 0, 0}, 8, 4, {}};
-  // At rest the energy is no coordinate.
+  // At rest the energy cannot be a coordinate.
   const Flow<double> bottom{double_well(), {std::sqrt(0.5), 0}, 3, 4, {}};
   for (const Flow<double>& flow : {well, pair, bottom}) {
     const auto problem = test::problem_of(flow);
@@ -213,8 +213,8 @@ TEST(ArcSplitting, OfOtherSystems) {
   }
 }
 
-/// At every degree at most ten times the unsplit run's own error, against double-double numbers, or
-/// what rounding alone makes of a degree.
+/// At every degree the error against double-double numbers is at most ten times the unsplit run's own
+/// error, or that of rounding alone.
 void expect_loses_nothing(const Flow<double>& flow, const std::vector<std::size_t>& numbers) {
   const auto problem = test::problem_of(flow);
   const GaussSettings settings = adaptive(8, 1e-13);
@@ -250,8 +250,8 @@ TEST(ArcSplitting, DoesNotDependOnTheUnitOfLength) {
 }
 
 TEST(ArcSplitting, DoesNotDependOnHowNearToRestOrHowEccentric) {
-  // Where the energy is no coordinate beyond 1e-8; an escape; a fall from apogee past a perigee of
-  // a thousandth.
+  // Cases in which the energy is not a coordinate beyond 1e-8: an escape, and a fall from apogee
+  // past a perigee of a thousandth.
   expect_loses_nothing({double_well(), {1e-8, 0}, 3, 5, {}}, {3});
   expect_loses_nothing({double_well(), {0.2, 0}, 3, 5, {}}, {3});
   expect_loses_nothing(
@@ -323,7 +323,8 @@ TEST(ArcSplitting, CarriesWhatIsThrownToTheCaller) {
   IntegrationStatistics statistics;
   ArcStatistics arcs;
   for (const std::size_t threads : {1U, 3U}) {
-    // In the nominal, and in the arcs: 6000 steps take long enough to be asked on the way.
+    // The interruption is tested in the nominal and in the arcs: 6000 steps take long enough for
+    // the callback to be called on the way.
     for (const double at : {0.01, 0.06}) {
       double reached = 0;
       EXPECT_THROW(integrate_in_arcs<double>(problem, VelocityVerletSettings{0.005}, {3, threads},
@@ -336,7 +337,7 @@ TEST(ArcSplitting, CarriesWhatIsThrownToTheCaller) {
                    Stopped)
           << threads << " threads, at " << at;
     }
-    // A failure in an arc itself: the coefficients of degree 3 overflow, the nominal does not.
+    // A failure in an arc itself: the coefficients of degree 3 overflow, but the nominal does not.
     Flow<double> steep{double_well(), {0, 0}, 1000, 3, {}};
     test::expect_error(ErrorKind::numerical, "not finite", [&] {
       integrate_in_arcs<double>(test::problem_of(steep), adaptive(), {3, threads}, statistics,

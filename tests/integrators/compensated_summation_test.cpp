@@ -7,7 +7,7 @@
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 
-// What the compensated summation of the steps is for, and that it can be left out.
+// Tests the purpose of the compensated summation of the steps, and that it can be turned off.
 
 namespace hamjet {
 namespace {
@@ -44,10 +44,10 @@ TEST(CompensatedSummation, KeepsRoundOffFromGrowing) {
   EXPECT_LE(plain, 1e-12);
 }
 
-// Both are the same method: the jets of all degrees agree to the round-off of a few steps. In the
-// first one nothing is lost at its start; a step of 1 rounds nothing in its products, so that
-// higher degrees agree bit by bit, and the nominal, to which a step adds twice, to a unit in the
-// last place.
+// Both are the same method: the jets of all degrees agree to the round-off of a few steps. The
+// first step loses nothing at its start, and a step of 1 rounds nothing in its products. Therefore
+// higher degrees agree bit by bit, and the nominal, to which a step adds twice, agrees to a unit in
+// the last place.
 TEST(CompensatedSummation, ChangesRoundOffAlone) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 1;

@@ -7,7 +7,7 @@
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
-// When a fixed-point iteration is done. Expected outcomes follow from the definition.
+// Tests when a fixed-point iteration stops. The expected outcomes follow from the definition.
 
 namespace hamjet {
 namespace {
@@ -21,8 +21,9 @@ TEST(Contraction, NoChangeTwiceIsTheSolution) {
 }
 
 TEST(Contraction, EndsOneChangeEarlierWhereWhatIsLeftContractsOnceMore) {
-  // A hundredth each time: 1e-4, 1e-6 .. 1e-18. What is left after 1e-18 is 1e-20, below 2^-12 of a
-  // rounding, 5.4e-20; contracted once more, what is left after 1e-16 is 1e-20 too.
+  // Each change is a hundredth of the last one: 1e-4, 1e-6 .. 1e-18. The remaining error after
+  // 1e-18 is 1e-20, below 2^-12 of a rounding, 5.4e-20. If the error contracts once more, it is
+  // 1e-20 after 1e-16 too.
   for (const bool contracts_once_more : {false, true}) {
     Contraction<double> contraction(contracts_once_more);
     double size = 1e-4;
@@ -36,7 +37,7 @@ TEST(Contraction, EndsOneChangeEarlierWhereWhatIsLeftContractsOnceMore) {
 }
 
 TEST(Contraction, ShortStepsNeedNoNewton) {
-  // Guesses that are right to the last bit change nothing; a try takes a few evaluations then.
+  // Guesses that are right to the last bit are not changed; a try then takes a few evaluations.
   const std::vector<double> start = {1, 0, 0, 0, 1, 0};
   const FlowProblem<double> problem{
       kepler(), SeriesSpace::create(6, 1), {0, 1, 2, 3, 4, 5}, start, 2.0};

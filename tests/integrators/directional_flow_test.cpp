@@ -10,8 +10,8 @@
 #include "hamjet/integrators/symmetric_composition.hpp"
 #include "integrator_checks.hpp"
 
-// A method commutes with the restriction to lines: what it makes of the lines is what the full jet
-// of the same steps is along them.
+// A method commutes with the restriction to lines: its result for the lines is the full jet of the
+// same steps along the lines.
 
 namespace hamjet {
 namespace {
@@ -27,8 +27,8 @@ void expect_restriction(const Integrate& integrate) {
     ASSERT_EQ(lines.size(), 2u);
     const std::vector<double> difference = flow.relative_difference(lines, restricted);
     ASSERT_EQ(difference.size(), static_cast<std::size_t>(order) + 1);
-    // A sample of rounding: some 100 operations a step, which add up at random over tens of steps,
-    // and up to 252 coefficients of a degree in a sum.
+    // The bound is a sample of rounding: some 100 operations in each step, which add up at random
+    // over tens of steps, and up to 252 coefficients of a degree in a sum.
     for (const double x : difference) EXPECT_LT(x, 2e-13) << "order " << order;
   }
 }

@@ -9,8 +9,8 @@
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 
-// References are made of double-double numbers. Extended precision, 113 bits from another library,
-// shows what they are worth: they round as double precision does, with 50 bits more.
+// References are computed with double-double numbers. They are compared with extended precision,
+// 113 bits from another library: their rounding is that of double precision with 50 bits more.
 
 namespace hamjet {
 namespace {
@@ -41,12 +41,12 @@ TEST(DoubleDoubleGauss, RoundsAsDoublePrecisionWithFiftyBitsMore) {
   const double limit = allowed(jet_in<double>(flow, settings), exact);
   EXPECT_LE(worst_error(found, exact), limit);
   EXPECT_LE(limit, 1e-26);
-  // The rotation is left out as in any arithmetic.
+  // The rotation is left out as in other arithmetic.
   EXPECT_LE(worst_error(jet_in<DoubleDouble>(flow, settings, FlowSymmetry::rotation), exact),
             limit);
 }
 
-/// Its vector field has a sine, whose series are formed by recurrences.
+/// The vector field has a sine, whose series are formed by recurrences.
 struct Pendulum {
   template <class T>
   T operator()(std::span<const T> q, std::span<const T> p) const {

@@ -8,8 +8,8 @@
 #include "support/magnitude.hpp"
 #include "support/map.hpp"
 
-// Jets of the double well against an independent route: finite differences of a flow in extended
-// precision that has nothing to do with the library's jets.
+// Jets of the double well are compared with an independent computation: finite differences of a
+// flow in extended precision that does not use the library's jets.
 
 namespace hamjet::test {
 namespace {
@@ -43,7 +43,7 @@ Point flow(Point z, const Extended& duration, int steps) {
   return z;
 }
 
-/// A map of the plane whose derivatives are wanted.
+/// A map of the plane whose derivatives are computed.
 using Map = std::function<Point(const Point&)>;
 
 /// The coefficients of degree 1 to 3 of a map by central differences of width 1e-6: errors near
@@ -106,7 +106,8 @@ TEST(DoubleWellJet, OfGaussWithEightStages) {
   expect_jet(jet, exact, 2e-11);
 }
 
-// One stage is the midpoint scheme, whose map is far from the flow: its jet is that of this map.
+// One stage is the midpoint scheme, whose map is far from the flow: the jet is that of the scheme's
+// map.
 TEST(DoubleWellJet, OfTheMidpointScheme) {
   constexpr int steps = 15;
   const auto jet = run_gauss(well(), fixed_step(1, duration / steps));

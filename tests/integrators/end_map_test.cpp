@@ -10,8 +10,8 @@
 
 #include "hamjet/dynamics/dynamical_system.hpp"
 
-// The step of a degree by the end map, against that by the stages' slopes: the same sums by another
-// way, of which that by the slopes does not use that the method is symplectic.
+// The step of a degree by the end map is compared with the step by the stages' slopes. Both compute
+// the same sums in different ways, and the slopes do not use that the method is symplectic.
 
 namespace hamjet {
 namespace {
@@ -50,8 +50,8 @@ class OneStep {
     }
   }
 
-  /// The stages, with the response that is asked for; then the largest difference of both steps of
-  /// degree 2, in parts of the largest coefficient of the step.
+  /// Solves the stages, with the requested response. Returns the largest difference of both steps
+  /// of degree 2, relative to the largest coefficient of the step.
   double difference(Response response) {
     const std::size_t n = state_.size() / 2;
     const auto state = [this](std::size_t i, std::size_t k) { return state_[i][k]; };
@@ -95,7 +95,8 @@ class OneStep {
   std::vector<std::vector<double>> state_;
 };
 
-/// Sums of a few dozen products, of factors of about 1: their roundings are as many at most.
+/// The values are sums of a few dozen products of factors of about 1, and the roundings are at most
+/// as many.
 constexpr double allowed = 64 * std::numeric_limits<double>::epsilon();
 
 TEST(EndMap, IsTheStepByTheSlopes) {
@@ -106,7 +107,7 @@ TEST(EndMap, IsTheStepByTheSlopes) {
           << system.name << ", " << stages << " stages";
       EXPECT_TRUE(step.follows_from_base());
     }
-    // Lanes without a stage of their own.
+    // Some lanes have no stage of their own.
     for (const int stages : {9, 14, 16}) {
       OneStep<16> step(system, stages, -0.3);
       EXPECT_LT(step.difference(Response::for_end_map), allowed)

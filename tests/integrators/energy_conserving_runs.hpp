@@ -27,7 +27,7 @@ EnergyConservingRun<Real> run_energy_conserving(const EnergyConservingProblem<Re
   return run;
 }
 
-/// As many steps as asked for, forwards or (direction -1) backwards in time.
+/// The given number of steps, forwards or (direction -1) backwards in time.
 template <class Real>
 EnergyConservingRun<Real> take_steps(EnergyConservingProblem<Real> problem, std::size_t count,
                                      int direction = 1) {

@@ -5,7 +5,8 @@
 
 #include "energy_conserving_runs.hpp"
 
-// Where the step equation has no root: the predicted place beside the observed one.
+// Places at which the step equation has no root: the predicted place is compared with the observed
+// one.
 
 namespace hamjet {
 namespace {
@@ -46,7 +47,7 @@ TEST(EnergyConservingStops, MidpointWhereGChangesSign) {
       EXPECT_LT(*stop.steps_to_sign_change, 1.1) << e << " " << step;
       expect_message(stop,
                      {"energy-conserving midpoint", "H(z_m) - E comes no nearer to 0", "G = "});
-      // First place: G is positive at the start of every step but perhaps the last ones.
+      // The first place: G is positive at the start of every step except perhaps the last steps.
       for (std::size_t k = 0; k + 1 < run.steps.size(); ++k) EXPECT_GT(run.steps[k].condition, 0);
       const auto& z = run.result.state;
       const double distance = std::abs(std::hypot(z[0], z[1]) - predicted);
@@ -58,7 +59,7 @@ TEST(EnergyConservingStops, MidpointWhereGChangesSign) {
   }
 }
 
-// Expected: sqrt(5/8) = 0.7906 divides the orbits.
+// Expected: sqrt(5/8) = 0.7906 separates the eccentricities.
 TEST(EnergyConservingStops, MidpointRunsBelowTheLimitingEccentricity) {
   const DynamicalSystem system = kepler();
   for (const double e : {0.3, 0.6, 0.75, 0.785}) {
@@ -73,8 +74,8 @@ TEST(EnergyConservingStops, MidpointRunsBelowTheLimitingEccentricity) {
 }
 
 // Expected: G > 0 all along the paper's orbit (e = 0.3, below the limit, oblateness of order 1e-3),
-// so that the method completes its 10 pi; the errata's "parts of the paper's own orbit" is
-// Störmer's.
+// so that the midpoint method completes its 10 pi. The errata's statement on "parts of the paper's
+// own orbit" is about Störmer's method.
 TEST(EnergyConservingStops, MidpointCompletesTheOrbitOfThePaper) {
   const auto& orbit = test::paper_orbit();
   const DynamicalSystem system = zonal_gravity(orbit.field);
@@ -85,7 +86,7 @@ TEST(EnergyConservingStops, MidpointCompletesTheOrbitOfThePaper) {
   const auto stormer =
       run_energy_conserving<double>({system, Method::stormer, orbit.start, 0.01, orbit.duration});
   ASSERT_TRUE(stormer.result.stop);
-  EXPECT_EQ(stormer.result.stop->step, 1);  // it starts at perigee, a minimum of V
+  EXPECT_EQ(stormer.result.stop->step, 1);  // the orbit starts at perigee, a minimum of V
   EXPECT_EQ(stormer.result.stop->cause, Cause::reversed_root);
 }
 
@@ -180,7 +181,7 @@ TEST(EnergyConservingStops, OtherCauses) {
   EXPECT_EQ(cause_of({orbit, Method::midpoint, kepler_state(0.3, 0), 100, 1000}),
             Cause::no_midpoint);
   EXPECT_EQ(cause_of({orbit, Method::stormer, {0, 0, 0, 0, 1, 0}, 0.1, 1}), Cause::not_finite);
-  // A particle at rest in equilibrium has no energy to fix the step size by.
+  // The energy of a particle at rest in equilibrium does not determine the step size.
   EXPECT_EQ(cause_of({well, Method::stormer, {0, 0}, 0.1, 1}), Cause::undetermined_step);
   EXPECT_EQ(cause_of({well, Method::midpoint, {0, 0}, 0.1, 1}), Cause::undetermined_step);
 }

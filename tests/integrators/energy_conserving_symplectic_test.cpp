@@ -9,8 +9,8 @@
 #include "integrators/small_systems.hpp"
 #include "support/magnitude.hpp"
 
-// Symplecticity, by differences in extended precision, and the equations as the paper ought
-// to print them.
+// Tests symplecticity, by differences in extended precision, and the equations in their corrected
+// form.
 
 namespace hamjet {
 namespace {
@@ -26,7 +26,7 @@ Extended first_energy(EnergyConservingProblem<Extended> problem) {
   return integrate_energy_conserving<Extended>(problem).energy;
 }
 
-/// The first step that gives the discrete energy E, by the secant method from the step given.
+/// The first step for which the discrete energy is E, by the secant method from the given step.
 Extended first_step_for(EnergyConservingProblem<Extended> problem, const Extended& energy) {
   Extended before = problem.first_step;
   Extended error_before = first_energy(problem) - energy;
@@ -96,7 +96,7 @@ double defect(const Tangent& t, bool is_extended) {
   return largest;
 }
 
-/// Not separable: the second-order structure is not there.
+/// The system is not separable, so that it has no second-order structure.
 DynamicalSystem coupled_momenta() {
   return make_system("coupled momenta", 2, [](auto q, auto p) {
     return (p[0] * p[0] + p[1] * p[1]) * (1 + q[0] * q[0] / 4) / 2 + square(q[0] + q[1]) +
@@ -194,8 +194,8 @@ TEST(EnergyConservingErrata, StormerLagrangianEnergyNamesTheNewTime) {
   const double other = 1.5 * last.size;
   const double p = last.start[1] - other * stiffness * last.start[0];
   const double wrong = stormer_energy(last.start[0], last.start[0] + other * p / mass, other);
-  EXPECT_GT(std::abs(wrong - e(run.steps[18])), 1e-3);     // the right line refuses it
-  EXPECT_NEAR(e(run.steps[18]), e(run.steps[17]), 1e-13);  // the printed one holds all the same
+  EXPECT_GT(std::abs(wrong - e(run.steps[18])), 1e-3);     // the correct line rejects the step
+  EXPECT_NEAR(e(run.steps[18]), e(run.steps[17]), 1e-13);  // the printed line holds nevertheless
 }
 
 // Expected: Delta q = Delta t M^-1 p_(k+1) and Delta p = -Delta t grad V(q_k) of `m_h_stormer`, the
@@ -239,7 +239,7 @@ TEST(EnergyConservingErrata, MidpointMomentumHasNoFactor) {
     }
     largest_factor = std::max(largest_factor, s.size / tau);
   }
-  EXPECT_GT(largest_factor, 1.2);  // so that the factor was seen
+  EXPECT_GT(largest_factor, 1.2);  // shows that the factor differs from 1
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ struct Case {
   DynamicalSystem system;
   Method method;
   std::vector<double> start;
-  double first_step;  ///< the largest of the fit
+  double first_step;  ///< the largest step of the fit
   double duration;
 };
 
@@ -69,7 +69,7 @@ std::vector<Case> cases() {
   };
 }
 
-/// |p|^2 / 2 and the potential's terms, each without its sign: what H is rounded by.
+/// The magnitudes of |p|^2 / 2 and of the potential's terms, which determine the rounding of H.
 template <class Real>
 Real energy_terms(const DynamicalSystem& system, const std::vector<Real>& z) {
   using std::abs;
@@ -184,7 +184,7 @@ TEST_P(EnergyConservingSystems, TimeReversibility) {
     const auto epsilon = static_cast<double>(std::numeric_limits<Extended>::epsilon());
     const double bound = epsilon * largest_move * count * count / 2;
     EXPECT_LT(distances.back(), bound) << first_step;
-    EXPECT_LT(bound, 1e-18);  // far below any error of the method
+    EXPECT_LT(bound, 1e-18);  // the bound is far below any error of the method
     RecordProperty("distance_back", fmt::format("{:.2g} of {:.2g}", distances.back(), bound));
   }
   if (is_symmetric) return;

@@ -37,12 +37,12 @@ TEST(EnergyGuard, NoticesAnotherOrbitInAnyUnitOfLength) {
   }
 }
 
-// Next to an equilibrium all terms of the energy vanish, and rounding of what they become is no
-// other motion.
+// Near an equilibrium all terms of the energy vanish, and their rounding does not count as another
+// motion.
 TEST(EnergyGuard, KnowsTheRoundingOfTermsThatVanishAtTheStart) {
   const FlowProblem<double> problem = constant_problem(double_well(), {0, 1e-9});
   EnergyGuard<double> guard(problem, 1e-12, "test");
-  // In the middle of a well, on the way through both: p^2/2 = 1/8.
+  // In the middle of a well, on the way through both wells: p^2/2 = 1/8.
   std::vector<double> bottom = {1 / std::numbers::sqrt2, 0.5};
   EXPECT_NO_THROW(guard.check(bottom.data(), 1, 1.0));
   bottom[1] = 0.51;

@@ -16,7 +16,7 @@
 #include "support/magnitude.hpp"
 #include "support/random_series.hpp"
 
-// Estimates are compared with errors that are put into a jet, or known from extended precision.
+// Estimates are compared with errors that the test adds to a jet, or that extended precision shows.
 
 namespace hamjet::test {
 namespace {
@@ -39,7 +39,7 @@ TEST(ErrorEstimate, IsSmallForAGoodJet) {
   const auto estimate = estimate_error<double>(orbit.problem, orbit.jet());
   ASSERT_EQ(estimate.size(), 4U);
   for (const double error : estimate) {
-    EXPECT_GT(error, 1e-16);  // never below the rounding of the numbers
+    EXPECT_GT(error, 1e-16);  // the estimate is never below the rounding of the numbers
     EXPECT_LT(error, 1e-10);
   }
 }
@@ -63,7 +63,7 @@ TEST(ErrorEstimate, SeesOneWrongCoefficientOfAnyMonomial) {
   }
 }
 
-/// A jet and the lines with which its tolerance was chosen.
+/// A jet and the lines for which its tolerance was chosen.
 struct KnownLines {
   FlowJet<double> jet;
   std::vector<JetAlongLine<double>> lines;
@@ -187,16 +187,16 @@ TEST(RoundingSample, IsWhatTheMapMakesOfHalfAUnit) {
   const std::vector<double> sample = sample_rounding<double>(orbit.problem, jet, amplify);
   EXPECT_EQ(runs, 8 * 5);
   ASSERT_EQ(sample.size(), 4U);
-  // The largest number of the start is 1, which moves by a unit of 2^-52 upwards and 2^-53
-  // downwards, if at all; those of 0 move by any part of it.
+  // The largest number of the start is 1, which moves by a unit of 2^-52 upwards or 2^-53
+  // downwards, or not at all; numbers that are 0 move by any fraction of the unit.
   const double scale = largest_of_degree(jet, 0);
   EXPECT_GE(sample[0] * scale, 1e3 * 0.5 * half_unit);
   EXPECT_LE(sample[0] * scale, 1001 * 2 * half_unit);
   EXPECT_GT(sample[1], 0);
-  EXPECT_EQ(sample[2], 0);  // the start has no such degree, and the map makes none
+  EXPECT_EQ(sample[2], 0);  // the start has no terms of this degree, and the map makes none
 }
 
-// Ten times the sample is above the rounding error of the jet, which extended precision tells.
+// Ten times the sample is above the rounding error of the jet, which extended precision shows.
 TEST(RoundingSample, IsOfTheSizeOfRounding) {
   const DynamicalSystem system = kepler();
   const FlowProblem<double> problem{
@@ -226,7 +226,7 @@ TEST(RoundingSample, IsOfTheSizeOfRounding) {
     error /= largest_of_degree(jet, d);
     const double sampled = sample[static_cast<std::size_t>(d)];
     EXPECT_LE(error, 10 * sampled) << d;
-    EXPECT_GE(error, sampled / 1000) << d;  // it is no bound of another size
+    EXPECT_GE(error, sampled / 1000) << d;  // the sample is not a bound of another size
   }
 }
 

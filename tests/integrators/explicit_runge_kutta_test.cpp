@@ -162,7 +162,7 @@ TEST(Fehlberg78, TheObserverSeesEveryStepAndTheLastJet) {
   EXPECT_EQ(calls, statistics.steps);
   EXPECT_EQ(last_time, -3);
   EXPECT_EQ(last_value, jet[2][7]);
-  // 13 stages a step; the first is shared by the repetitions of a step.
+  // There are 13 stages in a step; repetitions of a step share the first stage.
   EXPECT_LE(statistics.vector_field_evaluations,
             13 * statistics.steps + 12 * statistics.rejected_steps);
 }

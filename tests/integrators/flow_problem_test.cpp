@@ -10,7 +10,8 @@
 namespace hamjet {
 namespace {
 
-/// The oscillator over 0.5, going on from a jet; all that it is made from is gone or changed.
+/// The oscillator over 0.5, continued from a jet; everything that the problem was made from is
+/// destroyed or changed.
 FlowProblem<double> problem_alone() {
   DynamicalSystem system = harmonic_oscillator(1, 1);
   FlowProblem<double> problem{system, SeriesSpace::create(2, 1), {0, 1}, {1, 0}, 0.25};

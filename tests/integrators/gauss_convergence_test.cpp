@@ -17,11 +17,11 @@ struct Points {
   std::vector<double> errors;
 };
 
-/// Where the leading term of the error rules, above the rounding floor.
+/// The range in which the leading term of the error dominates, above the rounding floor.
 struct Window {
   double lowest;
   double highest;
-  int first_count;  ///< of steps
+  int first_count;  ///< numbers of steps
 };
 
 template <class Real>
@@ -54,7 +54,8 @@ void expect_order(int stages, double duration, const Window& window) {
 }
 
 TEST(GaussOrder, IsTwiceTheNumberOfStagesOnEveryDegree) {
-  // Low orders show theirs from perigee in one unit of time, higher ones need a span of many steps.
+  // Low orders show their slope from perigee in one unit of time; higher orders need a span of many
+  // steps.
   expect_order<double>(1, 1, {1e-12, 1e-2, 4});
   expect_order<double>(2, 1, {1e-12, 1e-2, 4});
   expect_order<double>(3, 10, {1e-12, 1e-2, 20});

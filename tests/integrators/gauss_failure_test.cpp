@@ -9,7 +9,7 @@
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 
-// Where there is no answer, or a wrong one within reach, the integrator must say so.
+// If there is no answer, or if a wrong one is near, the integrator must report it.
 
 namespace hamjet {
 namespace {
@@ -51,7 +51,7 @@ TEST(GaussMidpoint, FollowsTheConnectedRootToItsEnd) {
 TEST(Gauss, AdaptiveStepsAvoidTheDetachedRoot) {
   const auto flow = eccentric_orbit(1);
   const auto jet = test::run_gauss(flow, test::adaptive(1, 1e-8));
-  // A step's error is a part in 1e8; the energy is kept to about its square root in the worst case.
+  // The error of a step is 1e-8, and the energy is kept to about its square root in the worst case.
   EXPECT_NEAR(test::energy(flow.system, test::final_state(jet)), -0.5, 1e-4);
 }
 
@@ -105,7 +105,7 @@ TEST(Gauss, AForceOutsideItsDomainIsAnError) {
                      [&] { test::run_gauss(flow, test::fixed_step(3, 0.01)); });
 }
 
-/// Else the next step would be no number either, and the integration would not end.
+/// Otherwise the next step would not be a number either, and the integration would not end.
 TEST(GaussStepRule, AStepThatShowsNoNumberIsTooLong) {
   const GaussStepRule rule(8, true, 2, std::numeric_limits<double>::epsilon());
   const auto decaying = [](int degree) { return std::pow(0.1, degree); };
@@ -143,7 +143,7 @@ TEST(Gauss, RefusesSettingsOutOfRange) {
 }
 
 TEST(Gauss, AnInfiniteStepIsOneStepOrAnError) {
-  // It must not count zero or endless steps.
+  // The integration must not count zero steps or go on without end.
   IntegrationStatistics statistics;
   const test::Flow<double> flow{harmonic_oscillator(), {1, 0}, 0.5, 1, {}};
   try {

@@ -8,9 +8,9 @@
 #include "support/flow.hpp"
 #include "support/magnitude.hpp"
 
-// Few stages where the force passes through zero, the start among these places: a relative measure
-// of the error has nothing to relate to there. The oscillator has a closed form, the pendulum a
-// reference of 16 stages in extended precision.
+// Few stages on motions whose force passes through zero, also at the start: there a relative
+// measure of the error has no scale. The oscillator has a closed form, the pendulum a reference of
+// 16 stages in extended precision.
 
 namespace hamjet {
 namespace {
@@ -50,15 +50,16 @@ double error_of_rotation(const FlowJet<double>& jet, double angle) {
   return error;
 }
 
-/// Within about a factor of ten of tolerance times revolutions; tests/README.md says what is
-/// promised. Far below, the steps would be shorter than was asked for.
+/// The error is within about a factor of ten of the tolerance times the revolutions;
+/// tests/README.md states the promise. If it were far below, the steps would be shorter than
+/// requested.
 void expect_near_tolerance(double error, double tolerance) {
   EXPECT_LE(error, 10 * tolerance * run_time / 6.28);
   EXPECT_GE(error, 1e-3 * tolerance);
 }
 
-/// Steps go as the 2s-th root of the tolerance. A zero of the force that passed for a singularity
-/// would show as many short or repeated steps.
+/// Steps go as the 2s-th root of the tolerance. If a zero of the force counted as a singularity,
+/// there would be as many short or repeated steps.
 void expect_even_steps(const std::vector<IntegrationStatistics>& runs, int stages) {
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_LE(runs[i].rejected_steps, 10);
@@ -90,7 +91,7 @@ TEST(GaussForceZero, AdaptiveStepsOfTheOscillatorKeepTheTolerance) {
                                     last = time;
                                   });
       expect_near_tolerance(error_of_rotation(jet, run_time), tolerance);
-      // The steps as they were taken, to round-off.
+      // The steps that were taken, to round-off.
       EXPECT_LE(error_of_rotation(jet, angle),
                 0x1p-52 * (10 + 2 * static_cast<double>(statistics.steps)));
     }
@@ -126,10 +127,10 @@ TEST(GaussForceZero, FixedStepsOfTheOscillatorHaveTheirOrder) {
         if (momentum == 0) {
           for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(jet[i][0], 0);
         }
-        // The matrix; with the momentum 1 its second column is the state too.
+        // The state transition matrix; for the momentum 1 its second column is the state too.
         const double error =
             std::hypot(jet[0][1] - std::cos(run_time), jet[0][2] - std::sin(run_time));
-        // The chord of the angle by which the method falls behind.
+        // The chord of the angle by which the method lags.
         const double lag = run_time - count * angle_of_step(stages, h);
         EXPECT_NEAR(error, 2 * std::sin(lag / 2), 1e-13);
         if (before > 0) {
@@ -159,7 +160,7 @@ TEST(GaussForceZero, FixedStepsOfThePendulumHaveTheirOrder) {
   }
 }
 
-/// A nominal at rest in an equilibrium has no slopes: the steps must be right for the matrix.
+/// A nominal at rest in an equilibrium has no slopes: the steps must suit the matrix.
 TEST(GaussForceZero, AdaptiveStepsAboutAnEquilibriumKeepTheTolerance) {
   for (const int stages : {1, 2, 8}) {
     const auto jet =

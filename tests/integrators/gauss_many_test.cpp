@@ -18,8 +18,8 @@
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 
-// Orbits that are integrated side by side: each is right by a closed form, is the jet of a
-// symplectic map, and is what it would be alone.
+// Orbits that are integrated side by side. Each result agrees with a closed form, is the jet of a
+// symplectic map, and equals the result of the orbit alone.
 
 namespace hamjet {
 namespace {
@@ -87,7 +87,7 @@ FlowJet<double> after_a_period(const std::vector<double>& state, const SpacePoin
   return result;
 }
 
-/// By degree, the largest difference of a coefficient relative to the largest of `wanted`.
+/// For each degree, the largest difference of a coefficient relative to the largest of `wanted`.
 std::vector<double> relative_errors(const FlowJet<double>& jet, const FlowJet<double>& wanted) {
   const SeriesSpace& space = wanted[0].space();
   std::vector<double> result;
@@ -111,8 +111,8 @@ bool is_same(const FlowJet<double>& a, const FlowJet<double>& b) {
   });
 }
 
-/// Fewer than half of the orbits have needed more than lanes have: what is tested is not what one
-/// alone does.
+/// Fewer than half of the orbits needed more than lanes provide, so that the test is not about
+/// single orbits.
 void expect_lanes(const Outcomes& outcomes) {
   const auto alone =
       std::ranges::count_if(outcomes, [](const ManyFlowsOutcome& o) { return o.was_alone; });
@@ -130,8 +130,8 @@ TEST_P(GaussManyOfOrder, CirclesBesideEccentricOrbitsCloseAfterTheirPeriod) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     SCOPED_TRACE("orbit " + std::to_string(i));
     ASSERT_FALSE(outcomes[i].failure);
-    // What is promised along two lines, whose errors are sums over the variables: a coefficient
-    // alone can have twice that.
+    // The promise is for errors along two lines, which are sums over the variables: a single
+    // coefficient may have twice the error.
     const double allowed = 2 * 3 * tolerance * std::max(1.0, outcomes[i].statistics.periods);
     for (const double error :
          relative_errors(outcomes[i].jet, after_a_period(states[i], problem.space))) {
@@ -144,16 +144,16 @@ TEST_P(GaussManyOfOrder, JetsAreSymplecticToRounding) {
   ZonalGravity field{.mu = 1, .radius = 1};
   field.J[2] = 1e-3;
   field.J[3] = -2.5e-6;
-  // Coarse steps: the map is far from the flow, and symplectic all the same.
+  // With coarse steps the map is far from the flow, but still symplectic.
   const auto problem = problem_of(zonal_gravity(field), GetParam(), 20);
   const Outcomes outcomes =
       integrate_gauss_many(problem, orbits_of_axis_one(11), test::adaptive(6, 1e-5));
   expect_lanes(outcomes);
-  for (std::size_t i = 0; i + 3 < outcomes.size(); ++i) {  // the last ones pass within the Earth
+  for (std::size_t i = 0; i + 3 < outcomes.size(); ++i) {  // the last orbits pass within the Earth
     SCOPED_TRACE("orbit " + std::to_string(i));
     ASSERT_FALSE(outcomes[i].failure);
     for (const SymplecticityDefect& defect : symplecticity_by_degree(outcomes[i].jet)) {
-      // Each of some thousand roundings, relative to what cancels.
+      // The bound counts some thousand roundings, relative to the terms that cancel.
       EXPECT_LE(defect.scaled, 1e3 * std::numeric_limits<double>::epsilon());
     }
   }
@@ -164,7 +164,7 @@ TEST_P(GaussManyOfOrder, FixedStepsGiveTheNumericalMapOfOneOrbitAlone) {
   field.J[2] = 1e-2;
   auto problem = problem_of(zonal_gravity(field), GetParam(), 6);
   const States states = orbits_of_axis_one(10);
-  // Steps so long that the method errs by far more than rounding.
+  // The steps are so long that the method's error is far above rounding.
   const GaussSettings settings = test::fixed_step(4, 0.1);
   const Outcomes outcomes = integrate_gauss_many(problem, states, settings);
   for (std::size_t i = 0; i < 7; ++i) {
@@ -175,7 +175,8 @@ TEST_P(GaussManyOfOrder, FixedStepsGiveTheNumericalMapOfOneOrbitAlone) {
     ASSERT_FALSE(outcomes[i].was_alone);
     EXPECT_EQ(outcomes[i].statistics.steps, statistics.steps);
     for (const double difference : relative_errors(outcomes[i].jet, single)) {
-      // 60 steps, each with the rounding of its sums, carried along a flow that shears.
+      // The bound counts 60 steps, each with the rounding of its sums, carried along a flow that
+      // shears.
       EXPECT_LE(difference, 60 * 60 * std::numeric_limits<double>::epsilon());
     }
   }
@@ -207,8 +208,10 @@ TEST(GaussMany, AnOrbitThatFailsIsNamedAndSpoilsNone) {
   const GaussSettings settings = test::adaptive(8, 1e-10);
   const Outcomes sound = integrate_gauss_many(problem, states, settings);
   States with_others = states;
-  with_others.insert(with_others.begin() + 3, {1, 0, 0, 0, 0, 0});  // falls into the centre
-  with_others.insert(with_others.begin() + 5, {0, 0, 0, 0, 1, 0});  // starts there
+  with_others.insert(with_others.begin() + 3,
+                     {1, 0, 0, 0, 0, 0});  // this orbit falls into the centre
+  with_others.insert(with_others.begin() + 5,
+                     {0, 0, 0, 0, 1, 0});  // this orbit starts in the centre
   with_others.push_back({1, 0, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0});
   Outcomes outcomes = integrate_gauss_many(problem, with_others, settings);
   for (const std::size_t i : {std::size_t{11}, std::size_t{5}, std::size_t{3}}) {
@@ -239,10 +242,11 @@ TEST(GaussMany, SaysOfEachOrbitWhatOneAloneSays) {
     const auto jet = integrate_gauss<double>(problem, settings, single);
     const IntegrationStatistics& many = outcomes[i].statistics;
     EXPECT_EQ(many.step_tolerance, single.step_tolerance);
-    // Steps depend on rounding, at most by a few that are repeated here and not there.
+    // Steps depend on rounding, by at most a few steps that are repeated in one run and not in the
+    // other.
     EXPECT_NEAR(static_cast<double>(many.steps), static_cast<double>(single.steps),
                 0.1 * static_cast<double>(single.steps) + 1);
-    // The integral of a frequency by steps of another length.
+    // The integral of a frequency over steps of another length.
     EXPECT_NEAR(many.periods, single.periods, 0.1 * single.periods);
     const auto& lines = std::get<std::vector<JetAlongLine<double>>>(many.finer_lines);
     const auto& of_single = std::get<std::vector<JetAlongLine<double>>>(single.finer_lines);
@@ -254,7 +258,7 @@ TEST(GaussMany, SaysOfEachOrbitWhatOneAloneSays) {
       }
     }
     for (const double difference : relative_errors(outcomes[i].jet, jet)) {
-      EXPECT_LE(difference, 2 * 3 * 1e-10 * single.periods);  // both within what is promised
+      EXPECT_LE(difference, 2 * 3 * 1e-10 * single.periods);  // both errors are within the promise
     }
   }
 }
@@ -284,7 +288,7 @@ TEST(GaussMany, SystemsOfFirstOrderAndOfOneDegreeOfFreedomGoInLanesToo) {
     EXPECT_NEAR(at(3, 0), -s * s, 1e-11);
   }
 
-  // A pendulum of small energy beside one near the separatrix: each beside one alone.
+  // A pendulum of small energy and one near the separatrix: side by side and each alone.
   const DynamicalSystem pendulum =
       make_system("pendulum", 1, [](std::span<const Expression> q, std::span<const Expression> p) {
         return p[0] * p[0] / 2.0 - cos(q[0]);

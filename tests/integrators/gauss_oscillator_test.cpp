@@ -78,7 +78,7 @@ void expect_printed_answers(double lowest_omega, double highest_omega) {
   for (const auto& entry : test::reference_cases()["linear"]["oscillators"]) {
     const double h = test::from_hex(entry["h_hex"]);
     const long count = entry["n"].get<long>();
-    if (count > 10000) continue;  // a second each
+    if (count > 10000) continue;  // each run takes a second
     const double omega = entry["omega"].get<double>();
     if (omega < lowest_omega || omega > highest_omega) continue;
     const test::Flow<double> flow{

@@ -58,8 +58,8 @@ TEST(Gauss, ObserverSeesEveryStepAndTheExactEnd) {
   }
 }
 
-/// The largest sum of absolute values of the terms of a composition, degree by degree: what its
-/// round-off is relative to.
+/// For each degree, the largest sum of absolute values of the terms of a composition, to which its
+/// round-off is relative.
 double term_scale(FlowJet<double> second, FlowJet<double> first, int degree) {
   for (auto* jet : {&second, &first}) {
     for (auto& u : *jet) {
@@ -78,7 +78,7 @@ TEST(Gauss, OutAndBackIsTheIdentity) {
   const auto returned = test::run_gauss(back);
   const auto both = test::chained(returned, there);
   for (int d = 0; d <= 3; ++d) {
-    // 1e-13 is the error of either way; at degree 0 the norm of the way back amplifies it.
+    // 1e-13 is the error of each direction; at degree 0 the norm of the way back amplifies it.
     const double scale = d == 0 ? test::paper_orbit().matrix_norm : term_scale(returned, there, d);
     const auto identity = starting_jet(test::problem_of(out));
     for (std::size_t i = 0; i < 6; ++i) {
@@ -128,7 +128,7 @@ TEST(Gauss, FirstOrderFormEqualsSecondOrderForm) {
     const auto second = test::run_gauss(flow, test::fixed_step(stages, 0.25));
     flow.system.second_order.reset();
     const auto first = test::run_gauss(flow, test::fixed_step(stages, 0.25));
-    // Twenty steps of the same map, solved in two ways, each to round-off.
+    // Both are twenty steps of the same map, solved in two ways, each to round-off.
     for (int d = 0; d <= 3; ++d) EXPECT_LE(test::relative_error(first, second, d), 1e-13);
   }
 }
@@ -149,7 +149,7 @@ TEST(Gauss, CoupledMassesAgreeInBothForms) {
     return p[0] * p[0] + p[0] * p[1] / 2 + 2 * p[1] * p[1] + cos(q[0]) * q[1] + square(q[1]) +
            square(square(q[0])) / 4;
   }));
-  // One force is linear, and has no remainders of its own.
+  // One force is linear and has no remainders.
   expect_agreement_of_forms(make_system("half linear", 2, [](auto q, auto p) {
     return p[0] * p[0] + p[0] * p[1] / 2 + 2 * p[1] * p[1] + square(square(q[0])) / 4 +
            square(q[1]);
@@ -163,8 +163,8 @@ TEST(Gauss, LowOrderIsTheBeginningOfHighOrder) {
     for (std::size_t i = 0; i < 6; ++i) {
       for (std::size_t k = 0; k < low[i].size(); ++k) {
         const int degree = low[i].space().degree(k);
-        // The same operations in the same order: no rounding apart. The end map of the highest
-        // degree sums the same terms in another order.
+        // The operations and their order are the same, so that no rounding differs. The end map of
+        // the highest degree sums the same terms in another order.
         const double rounding = degree < order ? 0 : 1e-13 * test::largest_of_degree(high, degree);
         EXPECT_NEAR(low[i][k], high[i][k], rounding);
       }
@@ -176,7 +176,7 @@ TEST(Gauss, FewerVariablesGiveTheSliceOfTheFullJet) {
   auto flow = test::flow_of(test::paper_orbit(), 3);
   flow.duration = 10;
   const auto full = test::run_gauss(flow);
-  flow.variables = {5, 1};  // in any order
+  flow.variables = {5, 1};  // the times are in any order
   const auto part = test::run_gauss(flow);
   const SeriesSpace& space = part[0].space();
   for (std::size_t k = 0; k < space.size(); ++k) {
@@ -185,7 +185,7 @@ TEST(Gauss, FewerVariablesGiveTheSliceOfTheFullJet) {
     exponents[1] = space.exponents(k)[1];
     const std::size_t same = full[0].space().index(exponents);
     for (std::size_t i = 0; i < 6; ++i) {
-      // Sums of the same terms, in another order.
+      // Both are sums of the same terms, in another order.
       EXPECT_NEAR(part[i][k], full[i][same],
                   1e-13 * test::largest_of_degree(full, space.degree(k)));
     }
@@ -217,7 +217,7 @@ TEST(Gauss, PlanarSystemEqualsThePlanarPartOfTheFullOne) {
 }
 
 TEST(Gauss, EverySupportedNumberOfStagesAgrees) {
-  // Sixteen numbers of stages, five widths of a pack, padding included.
+  // The cases are sixteen numbers of stages and five widths of a pack, with padding.
   auto flow = test::flow_of(test::paper_orbit(), 2);
   flow.duration = 1;
   const auto expected = test::run_gauss(flow, test::adaptive(8, 1e-18));

@@ -42,14 +42,14 @@ TEST(GaussReference, PaperOrbitMatchesStateMatrixAndJetOfOrderThree) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_LE(test::magnitude_of(Extended(jet[i][0]) - orbit.state[i]), 10 * orbit.floor[i]);
     for (std::size_t j = 0; j < 6; ++j) {
-      // The matrix of the two files is the same one.
+      // The matrices of the two files are the same.
       EXPECT_LE(test::magnitude_of(reference[i][1 + j] - orbit.matrix[i][j]), 1e-30);
     }
   }
   for (int d = 0; d <= 3; ++d) {
-    // What the default integrator promises.
+    // The promise of the default integrator.
     EXPECT_LE(test::relative_error(jet, reference, d), 2e-12) << "degree " << d;
-    // 34 digits, less what conditioning costs; 1e-24 is the tolerance of a step.
+    // The bound is 34 digits minus the loss by conditioning; 1e-24 is the tolerance of a step.
     EXPECT_LE(test::relative_error(extended, reference, d), 1e-22) << "degree " << d;
   }
 }
@@ -126,7 +126,8 @@ TEST_P(GaussReferenceOrbit, EndsWithinWhatItsRoundingsMayAddUpTo) {
   IntegrationStatistics statistics;
   const auto jet = test::run_gauss(flow, test::adaptive(8, 1e-18), &statistics);
   const auto floor = matrix_floor(flow, jet);
-  // At this tolerance the steps' own errors are below round-off, of which each adds a few units.
+  // At this tolerance the truncation errors of the steps are below round-off, and each step adds a
+  // few units.
   const double tolerance = 4 * 0x1p-52 * static_cast<double>(statistics.steps);
   // A step rounds the state some 16 times, as the inputs are rounded once, and the flow that is
   // left amplifies that no more than it does the inputs: a random walk of 4 floors a step.
@@ -171,9 +172,9 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 TEST(GaussReference, PolarAndEquatorialOrbitsKeepExactZeros) {
-  // y = p_y = 0 is invariant for a polar start, z = p_z = 0 for an equatorial one without J3; of
-  // the coefficients, those odd in the deviations out of the plane vanish in the plane and
-  // conversely.
+  // A polar start keeps y = p_y = 0, and an equatorial start without J3 keeps z = p_z = 0. Among
+  // the coefficients, in the plane those vanish that are odd in the deviations out of the plane,
+  // and conversely.
   const auto expect_plane = [](const std::string& id, std::size_t normal) {
     const auto jet = test::run_gauss(test::flow_of(test::reference_orbit(id), 3));
     const SeriesSpace& space = jet[0].space();
@@ -190,7 +191,7 @@ TEST(GaussReference, PolarAndEquatorialOrbitsKeepExactZeros) {
   };
   expect_plane("POLAR-10PI", 1);
   expect_plane("EQ-J2-CIRC", 2);
-  // With J3 the equator is not invariant.
+  // With J3 the equatorial plane is not invariant.
   const auto jet = test::run_gauss(test::flow_of(test::reference_orbit("EQ-J3"), 1));
   EXPECT_NEAR(jet[2][0], 2.30e-8, 0.01e-8);
   EXPECT_NEAR(jet[5][0], 3.63e-7, 0.01e-7);
@@ -215,7 +216,8 @@ TEST(GaussReference, KeplerJetHasItsClosedForm) {
   const auto extended = test::run_gauss(flow, test::fixed_step(16, 0.1));
   test::Flow<double> rounded{
       kepler(), {1, 0, 0, 0, 1, 0}, static_cast<double>(flow.duration), 5, {4}};
-  // The steps are chosen by the nominal alone, and a circle is easy: degree 5 needs shorter ones.
+  // The steps are chosen by the nominal alone, for which a circle is easy: degree 5 needs shorter
+  // steps.
   const auto jet = test::run_gauss(rounded, test::adaptive(8, 1e-22));
   for (std::size_t k = 0; k <= 5; ++k) {
     const double scale = std::max({1.0, test::magnitude_of(x[k]), test::magnitude_of(y[k])});
@@ -241,7 +243,7 @@ TEST(GaussReference, KeplerMonodromyOverOneRevolution) {
                               {0, 1, 3, 4}};
     const auto jet = test::reference_jet(flow, test::adaptive(16, 1e-24));
     const std::size_t rows[] = {0, 1, 3, 4};
-    // Twenty digits are printed.
+    // The reference prints twenty digits.
     double scale = 0;
     for (const auto& row : matrix) {
       for (const auto& text : row)

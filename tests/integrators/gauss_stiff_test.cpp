@@ -7,7 +7,7 @@
 #include "dynamics/spring_pendulum.hpp"
 #include "support/flow.hpp"
 
-// Gauss methods where the flow has a time scale far below the step.
+// Gauss methods on flows with a time scale far below the step.
 
 namespace hamjet {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 TEST(GaussStiff, StaysWithTheRootOfTheStageEquationsThatIsConnectedToTheStart) {
   const test::Flow<double> flow{spring_pendulum(1, 1e8, 1, 10), {0.6, -0.8, 0, 0}, 2, 1, {}};
   const auto end = test::final_state(test::run_gauss(flow, test::fixed_step(4, 0x1p-5)));
-  // What half a unit in the last place of a position does to a step's momentum is 3e-10.
+  // Half a unit in the last place of a position changes a step's momentum by 3e-10.
   EXPECT_NEAR(end[0], 0.5962347188201002, 1e-13);
   EXPECT_NEAR(end[1], -0.8028102443908424, 1e-13);
   EXPECT_NEAR(end[2], 0.18984949154094477, 3e-9);
@@ -42,14 +42,15 @@ TEST(GaussStiff, HasTheEnergyOfTheDiscreteMapWhateverStagesAndStiffness) {
     const test::Flow<double> flow{
         spring_pendulum(1, one.stiffness, 1, 10), {0.6, -0.8, 0, 0}, 2, 1, {}};
     const auto end = test::final_state(test::run_gauss(flow, test::fixed_step(one.stages, 0x1p-5)));
-    // Half a unit in the last place of the length, in the spring's energy and the momentum.
+    // The bound is the effect of half a unit in the last place of the length on the spring's energy
+    // and on the momentum.
     EXPECT_NEAR(test::energy(flow.system, end), one.energy, 1e-6 * std::abs(one.energy))
         << one.stiffness << " " << one.stages;
   }
 }
 
-// Twenty thousand controlled steps end at the duration: what the sum of the steps loses would
-// turn this oscillator by 1e-10 too little or too much.
+// Twenty thousand controlled steps end at the duration: the rounding of their sum would turn this
+// oscillator by 1e-10 too little or too much.
 TEST(GaussStiff, ManyControlledStepsEndAtTheDuration) {
   const double k = 1e12, m = 0.25, duration = 0.01;
   const test::Flow<double> flow{harmonic_oscillator(m, k), {1, 0}, duration, 1, {}};

@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// Thirty-four digits, a few of which sums of 16 terms cost.
+/// The tolerance is thirty-four digits minus a few that sums of 16 terms cost.
 constexpr double roundoff = 1e-31;
 
 TEST(GaussTableau, HasTheClosedFormsOfOneTwoAndThreeStages) {

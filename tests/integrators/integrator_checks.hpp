@@ -9,12 +9,12 @@
 #include "support/map.hpp"
 #include "support/random_series.hpp"
 
-// What is asked of several integrators on the same flows. `integrate` is called with a problem and
+// Tests that several integrators share, on the same flows. `integrate` is called with a problem and
 // a step.
 
 namespace hamjet::test {
 
-/// From the start of the paper's orbit, in any field.
+/// The flow from the start of the paper's orbit, in any field.
 template <class Real = double>
 FlowProblem<Real> orbit_problem(const DynamicalSystem& system, int order, double duration) {
   const std::vector<double>& start = paper_orbit().start;
@@ -25,8 +25,8 @@ FlowProblem<Real> orbit_problem(const DynamicalSystem& system, int order, double
           Real(duration)};
 }
 
-/// How far the state and the first column of the matrix are from the paper's orbit's after its
-/// time, the column relative to its largest entry.
+/// The distance of the state and of the matrix's first column from those of the paper's orbit after
+/// its time; the column's is relative to its largest entry.
 inline double paper_orbit_error(const FlowJet<double>& jet) {
   const double state[] = {0.766193477722799312, -0.377383325619903653, -0.643494936008871042,
                           0.612704207756633850, 0.442268657796718223,  0.773489074513720723};
@@ -40,7 +40,7 @@ inline double paper_orbit_error(const FlowJet<double>& jet) {
   return error;
 }
 
-/// The jet of no time is the identity, exactly.
+/// The jet over no time is exactly the identity.
 inline void expect_identity(const FlowJet<double>& jet, const std::vector<double>& start) {
   for (std::size_t c = 0; c < jet.size(); ++c) {
     for (std::size_t k = 0; k < jet[c].size(); ++k) {
@@ -92,13 +92,13 @@ double return_error(const Integrate& integrate, double duration, double step) {
   return result;
 }
 
-/// Sizes of steps, and for each degree the errors with them.
+/// Sizes of steps and, for each degree, the errors with these steps.
 struct Convergence {
   std::vector<double> steps;
   std::vector<std::vector<double>> errors;
 };
 
-/// Of a method with these numbers of equal steps.
+/// The errors of a method with these numbers of equal steps.
 template <class Real, class Integrate>
 Convergence convergence(const Flow<Real>& flow, const FlowJet<Real>& expected,
                         const std::vector<int>& counts, const Integrate& integrate) {
@@ -121,8 +121,8 @@ FlowProblem<Real> oscillator_problem(const DynamicalSystem& system, double durat
   return {system, SeriesSpace::create(2, 3), {0, 1}, {Real(0.3), Real(-0.7)}, Real(duration)};
 }
 
-/// Of that oscillator, with m w = 1: q = q0 cos wt + p0 sin wt, p = p0 cos wt - q0 sin wt, and the
-/// same rotation at degree 1; a linear flow has nothing above.
+/// The closed form of this oscillator, with m w = 1: q = q0 cos wt + p0 sin wt, p = p0 cos wt - q0
+/// sin wt, and the same rotation at degree 1; a linear flow has no higher degrees.
 template <class Real>
 void expect_rotation(const FlowJet<Real>& jet, double duration, double tolerance) {
   using std::abs;

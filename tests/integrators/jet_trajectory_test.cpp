@@ -16,8 +16,9 @@
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "support/flow.hpp"
 
-// Jets at times between the steps. Expected values are by Runge-Kutta-Fehlberg 7(8) from time to
-// time, which shares neither method nor steps nor what is done between them.
+// Jets at times between the steps. The expected values come from Runge-Kutta-Fehlberg 7(8) from
+// time to time, which shares neither the method nor the steps nor the interpolation between the
+// steps.
 
 namespace hamjet {
 namespace {
@@ -60,7 +61,7 @@ std::vector<double> random_times(double duration, std::size_t count) {
   return times;
 }
 
-/// The problem that goes on from a jet.
+/// The problem that continues from a jet.
 FlowProblem<double> going_on(FlowProblem<double> problem, FlowJet<double> jet, double duration) {
   problem.initial_state = test::final_state(jet);
   problem.initial_jet = std::move(jet);
@@ -89,7 +90,8 @@ std::vector<double> largest_errors(const JetTrajectory<double>& trajectory,
   double reached = 0;
   for (const double time : random_times(problem.duration, 1000)) {
     IntegrationStatistics statistics;
-    // 1000 times finer than the tolerance of the trajectories; finer steps would be of rounding.
+    // The tolerance is 1000 times finer than that of the trajectories; finer steps would only add
+    // rounding.
     expected = integrate_fehlberg78<double>(going_on(problem, std::move(expected), time - reached),
                                             {.tolerance = 1e-13}, statistics);
     reached = time;
@@ -117,7 +119,7 @@ TEST(JetTrajectory, IsRightToTheToleranceAtAnyTime) {
         EXPECT_LE(errors[d], allowed)
             << stages << " stages, " << revolutions << " revolutions, degree " << d;
       }
-      // Random times are no ends of steps: what is between them has been tried.
+      // Random times are not ends of steps, so that the test covers the places between them.
       EXPECT_LT(trajectory.step_times().size(), 500U);
     }
   }
@@ -157,9 +159,9 @@ TEST(JetTrajectory, RepeatsTheStepsThatMemoryDidNotKeep) {
   EXPECT_GE(few.kept_jets(), 3U);
   for (const double time : random_times(problem.duration, 50)) {
     const auto expected = all.at(time), jet = few.at(time);
-    // The steps are the same; each of some hundred rounds anew, and the linear flow carries what
-    // was rounded early to the time. A flow of degree d shears it by the d-th power of the
-    // revolutions besides.
+    // The steps are the same, but each of some hundred steps rounds differently, and the linear
+    // flow carries early rounding to the time. A flow of degree d also shears it by the d-th power
+    // of the revolutions.
     const double carried = std::max(1.0, largest_of_degree(expected, 1));
     for (int d = 0; d <= 2; ++d) {
       const double floor = 100 * std::numeric_limits<double>::epsilon() * carried * std::pow(10, d);

@@ -36,7 +36,7 @@ Plane force_potential_slope(const Plane& q) {
   return {q[0] * q[0] * q[0] * 2.0 + q[1] * q[1] / 3.0, q[1] + q[0] * q[1] * (2.0 / 3)};
 }
 
-/// The next point from two, and Delta q of both intervals.
+/// The next point from two points, and Delta q of both intervals.
 struct Step {
   Plane before;        ///< q_(k-1)
   Plane point;         ///< q_k

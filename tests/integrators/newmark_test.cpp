@@ -126,12 +126,12 @@ TEST(Newmark, WithoutBetaIsVelocityVerlet) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < jet[i].size(); ++k) EXPECT_EQ(jet[i][k], expected[i][k]);
   }
-  // The implicit code tends to it.
+  // The implicit method converges to this value.
   const auto near = newmark(problem, 1e-14, 0.1);
   for (int d = 0; d <= 3; ++d) EXPECT_LE(test::relative_error(near, expected, d), 1e-12);
 }
 
-/// The jets of the start and of every step.
+/// The jets at the start and after every step.
 template <class Real>
 std::vector<FlowJet<Real>> all_jets(const FlowProblem<Real>& problem, double beta, double step) {
   std::vector<FlowJet<Real>> jets{starting_jet(problem)};
@@ -287,7 +287,7 @@ TEST(Newmark, TakesTheSolutionConnectedToTheStart) {
 }
 
 TEST(Newmark, AStepWithoutConnectedSolutionIsANumericalError) {
-  // r + c/r^2 >= (27 c/4)^(1/3) > 1 for c = h^2/2 and h = 0.6: no solution at all.
+  // r + c/r^2 >= (27 c/4)^(1/3) > 1 for c = h^2/2 and h = 0.6, so that there is no solution.
   const test::Flow<double> fall{kepler(), {1, 0, 0, 0, 0, 0}, 0.6, 2, {}};
   test::expect_error(ErrorKind::numerical, "Newmark: the implicit equation has no solution",
                      [&] { newmark(test::problem_of(fall), 0.5, 0.6); });

@@ -10,8 +10,8 @@
 #include "support/errors.hpp"
 #include "support/map.hpp"
 
-// Misprints of Guibout and Bloch that no other test meets: the corrected formula holds and the
-// printed one does not. data/paper/README.md lists all of them.
+// Misprints of Guibout and Bloch that no other test covers: the corrected formula holds, and the
+// printed one does not. data/paper/README.md lists all misprints.
 
 namespace hamjet {
 namespace {

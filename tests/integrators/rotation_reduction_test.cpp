@@ -21,9 +21,9 @@
 #include "support/magnitude.hpp"
 #include "support/map.hpp"
 
-// A jet with the rotation left out of the integration and put back is that of the same numerical
-// map: in extended precision to its rounding, in double precision as near to it as the jet that was
-// integrated in all variables.
+// The jet with the rotation left out of the integration and put back is that of the same numerical
+// map: in extended precision to its rounding, and in double precision with the same accuracy as the
+// jet that is integrated in all variables.
 
 namespace hamjet {
 namespace {
@@ -59,7 +59,7 @@ Flow<Real> flow_from(const NamedStart& start, int order, double duration) {
   return {earth(), {start.state.begin(), start.state.end()}, Real(duration), order, {}};
 }
 
-/// Integrates with the rotation left out, or not.
+/// Integrates with or without the rotation.
 template <class Real, class Integrate>
 FlowJet<Real> with(FlowSymmetry symmetry, FlowProblem<Real> problem, const Integrate& integrate) {
   problem.symmetry = symmetry;
@@ -69,7 +69,7 @@ FlowJet<Real> with(FlowSymmetry symmetry, FlowProblem<Real> problem, const Integ
   return jet;
 }
 
-/// The methods that leave it out, in fixed steps.
+/// The methods that can leave out the rotation, with fixed steps.
 template <class Real>
 using Method = std::function<FlowJet<Real>(const FlowProblem<Real>&, IntegrationStatistics&)>;
 template <class Real>
@@ -101,7 +101,7 @@ TEST(RotationReduction, IsTheSameNumericalMap) {
         const auto whole = with(FlowSymmetry::none, problem, method);
         const auto reduced = with(FlowSymmetry::rotation, problem, method);
         for (int d = 0; d <= 4; ++d) {
-          // 113 bits, and a factor of a thousand for the terms of the steps that cancel.
+          // The bound is 113 bits and a factor of a thousand for the terms of the steps that cancel.
           EXPECT_LE(test::relative_error(reduced, whole, d), 1e3 * 0x1p-112) << d;
         }
       }
@@ -120,7 +120,7 @@ TEST(RotationReduction, RoundsNoMoreThanTheWholeJet) {
       return static_cast<double>(test::relative_error(jet, exact, d));
     };
     for (int d = 0; d <= 4; ++d) {
-      // One draw of rounding can be smaller than the next by as much.
+      // One draw of rounding can be smaller than another by this factor.
       const double allowed = 10 * std::max(error(FlowSymmetry::none, d), 0x1p-52);
       EXPECT_LE(error(FlowSymmetry::rotation, d), allowed) << start.name << ", degree " << d;
     }
@@ -174,7 +174,7 @@ TEST(RotationReduction, TakesVariablesInAnyOrder) {
 }
 
 TEST(RotationReduction, TakesAPlaneWithoutAxis) {
-  // The equatorial plane alone, where a rotation turns all coordinates.
+  // The equatorial plane alone, in which a rotation turns all coordinates.
   const std::vector<std::size_t> plane = {0, 1};
   ZonalGravity field{.mu = 1, .radius = 1};
   field.J[2] = 1.0826e-3;
@@ -224,7 +224,7 @@ TEST(RotationReduction, StaysWhereThereIsNone) {
   EXPECT_FALSE(is_left_out(going_on));
   auto nominal_alone = test::problem_of(flow_from<double>(starts()[0], 0, 2));
   EXPECT_FALSE(is_left_out(nominal_alone));
-  // Along the axis, position and momentum.
+  // Position and momentum are along the axis.
   auto on_axis = problem;
   on_axis.initial_state = {0.01, 0, 1.2, 0, 0.01, 0.8};
   EXPECT_FALSE(is_left_out(on_axis));
@@ -274,7 +274,7 @@ TEST(RotationReduction, RefusesWhatIsNoSymmetry) {
   test::expect_error(ErrorKind::usage, "out of range", [&] { declare(0, {{0, 4}}); });
 }
 
-/// What systems declare is true: with_rotation judges it anew.
+/// The declarations of systems are true: with_rotation checks them.
 TEST(RotationReduction, DeclaredOnesAreSymmetries) {
   for (const DynamicalSystem& system : {earth(), kepler(1)}) {
     ASSERT_EQ(system.rotated_planes.size(), 2U);

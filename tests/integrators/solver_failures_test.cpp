@@ -4,7 +4,7 @@
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 
-// What has no solution is an error, never the last number of the search.
+// A problem without solution is an error; the solver never returns the last number of its search.
 
 namespace hamjet::test {
 namespace {

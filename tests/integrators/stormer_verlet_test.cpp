@@ -276,7 +276,7 @@ TEST(VelocityVerlet, BadSettingsAndSystemsAreUsageErrors) {
 }
 
 TEST(VelocityVerlet, CollisionIsANumericalErrorThatNamesTimeAndStep) {
-  // From the centre itself.
+  // The orbit starts in the centre.
   const test::Flow<double> flow{kepler(), {0, 0, 0, 0, 1, 0}, 1, 2, {}};
   test::expect_error(ErrorKind::numerical, "velocity Verlet: the force is not finite",
                      [&] { verlet(test::problem_of(flow), 0.5); });

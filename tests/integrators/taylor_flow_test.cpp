@@ -22,7 +22,8 @@ SharedSystem oblate() {
   return zonal_gravity(field);
 }
 
-// Against Gauss's method in extended precision, which shares no step, each lane with its own time.
+// The flow is compared with Gauss's method in extended precision, which shares no step; each lane
+// has its own time.
 TEST(TaylorFlow, CarriesEachLaneByItsOwnTime) {
   const SharedSystem system = oblate();
   const std::vector<double> times = {0.0, 1e-9, 0.3, -2.0, 12.0, -0.01};
@@ -34,7 +35,7 @@ TEST(TaylorFlow, CarriesEachLaneByItsOwnTime) {
     test::Flow<Extended> flow{*system, {start.begin(), start.end()}, Extended(times[k]), 1, {}};
     const auto exact = test::final_state(test::run_gauss(flow, test::adaptive(8, 1e-22)));
     for (std::size_t i = 0; i < 6; ++i) {
-      // Rounding of the way, which grows along the orbit.
+      // The rounding along the way, which grows along the orbit.
       EXPECT_NEAR(states[6 * k + i], static_cast<double>(exact[i]),
                   3e-15 * (1 + std::abs(times[k])))
           << times[k];
@@ -42,7 +43,7 @@ TEST(TaylorFlow, CarriesEachLaneByItsOwnTime) {
   }
 }
 
-// Bit by bit: a lane has what it has alone, whatever the others do.
+// Each lane's result equals, bit by bit, its result alone, whatever the other lanes contain.
 TEST(TaylorFlow, ALaneDoesNotDependOnTheOthers) {
   const SharedSystem system = oblate();
   const std::vector<double> times = {1e-7, 0.02, 0.3, -2.0, 1e-3, 0.7, -0.01, 0.11};
@@ -76,7 +77,7 @@ TEST(TaylorFlow, SaysHowFarItsPolynomialReaches) {
   }
 }
 
-// An expansion that is told its times takes the powers that they need, and is right at them.
+// An expansion that knows its times takes as many powers as they need, and is right at them.
 TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
   const SharedSystem system = oblate();
   TaylorFlow flow(system);
@@ -95,7 +96,7 @@ TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(state[i], static_cast<double>(end[i]), 1e-15) << time;
     }
-    // Much further it does not reach, and knows it.
+    // It does not reach much further, and reports this.
     EXPECT_LT(std::abs(flow.within_reach(1, 20 * time)), 20 * std::abs(time));
   }
 }
@@ -118,7 +119,7 @@ TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
     EXPECT_NEAR(states[1], 0, 1e-13 * a);
     EXPECT_NEAR(states[3], 0, 1e-13 * speed);
     EXPECT_NEAR(states[4], -speed * (1 - e) / (1 + e), 1e-14 * speed);
-    // What one polynomial reaches goes as the times of the orbit do.
+    // The reach of one polynomial is proportional to the time scale of the orbit.
     flow.set_state(0, pericentre);
     flow.expand();
     EXPECT_NEAR(flow.reach(0) / half, 0.016, 0.01);
@@ -126,7 +127,7 @@ TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
   }
 }
 
-// Where the square of a distance is below binary64, and the force is not finite, nothing is told.
+// If the square of a distance is below binary64 and the force is not finite, there is no result.
 TEST(TaylorFlow, MarksAForceThatIsNotFinite) {
   std::vector<double> states = {1e-200, 0, 0, 0, 1e100, 0};
   TaylorFlow{SharedSystem(kepler())}.advance(states, std::vector<double>{1e-300});

@@ -10,7 +10,7 @@
 namespace hamjet {
 namespace {
 
-/// Every operation, some of them of values that are themselves series.
+/// Uses every operation, some of them on values that are themselves series.
 struct Everything {
   template <class T>
   std::vector<T> operator()(std::span<const T> x) const {

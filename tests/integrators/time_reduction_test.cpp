@@ -85,7 +85,7 @@ std::vector<Case> cases() {
 TEST(TimeReduction, IsTheFlow) {
   double duration = 1;
   for (const Case& one : cases()) {
-    duration = -duration;  // forth and back
+    duration = -duration;  // there and back
     SCOPED_TRACE(one.name);
     const auto with = [&](FlowSymmetry symmetry, double step) {
       return integrated(problem_from<Extended>(one.system, one.start, 3, duration, symmetry),
@@ -116,8 +116,9 @@ TEST(TimeReduction, RoundsNoMoreThanTheWholeJet) {
     const Integrated whole = run(0.0, FlowSymmetry::none);
     const Integrated reduced = run(0.0, FlowSymmetry::rotation_and_time);
     for (int d = 0; d <= 3; ++d) {
-      // One draw of rounding can be smaller than the next by as much; and the composition sums some
-      // 50 terms to a coefficient of degree 3, whose roundings add up to 4 units as likely as not.
+      // One draw of rounding can be smaller than another by this factor. The composition also sums
+      // some 50 terms for a coefficient of degree 3, whose roundings add up to 4 units as likely as
+      // not.
       const double allowed =
           10 * std::max(test::relative_error(whole.jet, exact.jet, d), 4 * 0x1p-52);
       EXPECT_LE(test::relative_error(reduced.jet, exact.jet, d), allowed)
@@ -143,7 +144,7 @@ TEST(TimeReduction, IsSymplecticToTheErrorAlone) {
   EXPECT_GT(coarse / fine, 32);
 }
 
-/// The nominal and its steps are those of the jet in all variables.
+/// The nominal and its steps are the same as for the jet in all variables.
 TEST(TimeReduction, TakesTheSameSteps) {
   const std::vector<double> from = {0.3, -1.0, 0.4, 1.05, 0.4, 0.35};
   const auto run = [&](FlowSymmetry symmetry, IntegrationStatistics& statistics) {
@@ -169,7 +170,7 @@ TEST(TimeReduction, StaysWhereThereIsNone) {
   const auto of = [&](const DynamicalSystem& system, const std::vector<double>& from) {
     return left_out_of(problem_from<double>(system, from, 2, 1, both));
   };
-  // Where the rotation stops the nominal, a shift in time is a rotation.
+  // If the rotation stops the nominal, a shift in time is a rotation.
   EXPECT_EQ(of(kepler(1), {1, 0, 0, 0, 1, 0}), FlowSymmetry::rotation);
   EXPECT_EQ(of(test::pendulum(), {0, 0}), FlowSymmetry::none);
   auto problem =
@@ -198,7 +199,7 @@ TEST(TimeReduction, TakesAPlaneThatTheFlowStaysIn) {
   const auto reduced = integrated(problem, test::fixed_step(16, 0.0625));
   EXPECT_EQ(whole.left_out, FlowSymmetry::rotation);
   EXPECT_EQ(reduced.left_out, FlowSymmetry::rotation_and_time);
-  // Both have 0.06^32 of error, and round.
+  // Both results have an error of 0.06^32, and rounding.
   for (int d = 0; d <= 3; ++d) {
     EXPECT_LE(test::relative_error(reduced.jet, whole.jet, d), 1e5 * 0x1p-112) << d;
   }

@@ -24,13 +24,14 @@ Matrix<double> matrix2(double a, double b, double c, double d) {
 TEST(AffineSymplecticMap, DefectIsTheDeterminantMinusOneInThePlane) {
   const auto defect = symplecticity_defect(matrix2(2, 1, 1, 1.5));
   EXPECT_NEAR(defect.absolute, 2 * 1.5 - 1 - 1, 1e-15);
-  // The terms that cancel: 2*1.5 + 1*1.
+  // The sum of the terms that cancel is 2*1.5 + 1*1.
   EXPECT_NEAR(defect.relative, 1.0 / 5, 0.06);
   EXPECT_EQ(symplecticity_defect(matrix2(2, 3, 1, 2)).absolute, 0);
   EXPECT_EQ(symplecticity_defect(matrix2(0, 0, 0, 0)).absolute, 1);
 }
 
-// A hundred times the identity: Newton's step from there is no nearer, and what is left is refused.
+// For a hundred times the identity, Newton's step brings the matrix no nearer, and the remaining
+// defect is refused.
 TEST(AffineSymplecticMap, TheNearestOfWhatIsFarIsRefused) {
   const Matrix<double> far = 100 * Matrix<double>::Identity(4, 4);
   test::expect_error(ErrorKind::usage, "not symplectic",
@@ -80,8 +81,8 @@ TEST(AffineSymplecticMap, RotationIsThatOfThePaper) {
   EXPECT_LE(largest_entry(rotation.matrix() - matrix2(0.99, -sine, sine, 0.99)), 1e-15);
 }
 
-// A matrix rounded to double is symplectic to 1e-16; the correction makes it so to 1e-33, without
-// leaving its neighbourhood.
+// A matrix rounded to double is symplectic to 1e-16. The correction makes it symplectic to 1e-33
+// and changes it by no more than its rounding.
 TEST(AffineSymplecticMap, NearestSymplecticMatrix) {
   RandomNumbers random(32);
   for (const Eigen::Index n : {1, 2, 3}) {
@@ -119,7 +120,7 @@ TEST(SymplecticPowers, SaysWhereItOverflows) {
   expect_error(ErrorKind::usage, "must not be negative", [&] { powers(-1); });
 }
 
-// What the tests measure must not lose what is not a number.
+// The measures of the tests must not lose an entry that is not a number.
 TEST(LargestEntry, KeepsANaN) {
   Matrix<double> values = matrix2(1, -3, 2, 0);
   EXPECT_EQ(largest_entry(values), 3);

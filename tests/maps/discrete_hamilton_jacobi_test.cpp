@@ -72,7 +72,8 @@ TEST(DiscreteGeneratingFunction, OfARotationInClosedForm) {
   EXPECT_GT(first.quadratic_part().norm(), 1);
 }
 
-// The identity has no first kind; a quarter turn, Q = -p, P = q, no second one.
+// The identity has no function of the first kind; a quarter turn, Q = -p, P = q, has no function of
+// the second kind.
 TEST(DiscreteGeneratingFunction, SaysWhereItDoesNotExist) {
   const auto identity = AffineSymplecticMap<double>::identity(2);
   expect_error(ErrorKind::numerical, "of the first kind: it does not exist",
@@ -85,7 +86,7 @@ TEST(DiscreteGeneratingFunction, SaysWhereItDoesNotExist) {
   EXPECT_TRUE(exists(quarter, Kind::first));
 }
 
-/// K(Q, +D2 S), as it is printed.
+/// The residual with K(Q, +D2 S), as the equation is printed.
 double printed_residual(DifferentiableHamiltonian<double>& h, DifferentiableHamiltonian<double>& k,
                         const DiscreteGeneratingFunction<double>& s, const Vector<double>& w) {
   const Eigen::Index n = w.size() / 2;
@@ -94,7 +95,7 @@ double printed_residual(DifferentiableHamiltonian<double>& h, DifferentiableHami
   return h.value(s.original_point(w)) - k.value(Z);
 }
 
-// At any point of (q, Q), or (q, P), for any Hamiltonian.
+// The equation holds at any point of (q, Q), or (q, P), for any Hamiltonian.
 TEST(DiscreteHamiltonJacobi, HoldsForEveryHamiltonian) {
   RandomNumbers random(42);
   for (const Eigen::Index n : {1, 2, 3}) {
@@ -105,7 +106,8 @@ TEST(DiscreteHamiltonJacobi, HoldsForEveryHamiltonian) {
       for (const Kind kind : {Kind::first, Kind::second}) {
         const DiscreteGeneratingFunction<double> s(map, kind);
         const Vector<double> w = random_vector<double>(2 * n, random);
-        // Round-off of the point, times the slope there, divided as the kind's inversion does.
+        // The bound is the round-off of the point times the slope there, divided as the kind's
+        // inversion does.
         const Vector<double> z = s.original_point(w);
         const double slope = h.derivatives(z).gradient.norm() * z.norm() + std::abs(h.value(z));
         const double tolerance =

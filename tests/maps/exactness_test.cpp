@@ -69,8 +69,8 @@ TEST(Exactness, OfAnExactFormVanishesAndOfOthersIsKnown) {
 }
 
 TEST(Exactness, OfMidpointAndGaussOnThePaperOrbitMeetsTheStatedBounds) {
-  // Issue 2: at most 1e-11 absolute at degree 0, at most 1e-10 at degree 1, for F1; inverted in
-  // extended precision, so that what is seen is the integrator's.
+  // The stated bounds for F1 are 1e-11 at degree 0 and 1e-10 at degree 1, both absolute. The jet is
+  // inverted in extended precision, so that the residual is the integrator's.
   const double t = test::paper_orbit().duration;
   for (const auto& settings :
        {test::fixed_step(1, 0.01), test::fixed_step(2, 0.01), test::adaptive()}) {
@@ -98,7 +98,8 @@ TEST(Exactness, IsNoAccuracy) {
 }
 
 TEST(Exactness, FallsWithThePrecisionOfTheChain) {
-  // Two stages and a step of 0.2: far from right, yet exact to extended round-off.
+  // Two stages and a step of 0.2 give a map that is far from right, yet exact to extended
+  // round-off.
   const auto jet =
       test::paper_jet<Extended>(test::paper_orbit().duration, 4, test::fixed_step(2, 0.2));
   const auto residual = exactness_residual(one_form(test::inverted_jet(jet, "F1")));
@@ -120,7 +121,8 @@ TEST(Exactness, EveryPairSeesAChangeOfOneCoefficient) {
       background = test::larger(background, pair_residual(base, i, j));
     }
   }
-  EXPECT_EQ(overall, background);  // all pairs, and nothing else, make up the reported residual
+  EXPECT_EQ(overall,
+            background);  // the reported residual consists of all pairs and of nothing else
   for (std::size_t component = 0; component < 6; ++component) {
     for (std::size_t k = 1; k < 7; ++k) {
       auto changed = jet;
@@ -134,7 +136,7 @@ TEST(Exactness, EveryPairSeesAChangeOfOneCoefficient) {
           if (value > 100 * background) seen.emplace(i, j);
         }
       }
-      // Each change is seen by the reported residual as well, to the same amount.
+      // The reported residual shows each change by the same amount.
       double reported = 0;
       for (const auto& entry : exactness_residual(sigma)) {
         reported = test::larger(reported, entry.absolute);
@@ -160,7 +162,7 @@ TEST(Exactness, SurvivesAdaptiveStepsOnEccentricOrbits) {
         EXPECT_LE(entry.scaled, 1e-13) << "e = " << e << ", degree " << entry.degree;
       }
     }
-    // The steps' errors are amplified by the matrix, whose norm is the condition.
+    // The matrix, whose norm is the condition, amplifies the errors of the steps.
     double norm = 0;
     for (const auto& u : fine) {
       for (const double c : u.slice(1)) norm = std::max(norm, std::abs(c));

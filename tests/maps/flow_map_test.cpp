@@ -81,7 +81,7 @@ TEST(FlowMap, ComposesAtTheLowerOfTheTwoOrders) {
   EXPECT_EQ(largest_difference(kick(2, 2).followed_by(drift(5, 4)), expected), 0);
 }
 
-// Expected: the identity, and for one the closed inverse p - a q^2.
+// Expected: the identity, and for a kick the closed inverse p - a q^2.
 TEST(FlowMap, InverseComposesToTheIdentity) {
   const auto space = SeriesSpace::create(2, 4);
   const std::vector<double> start = {0.125, -6};
@@ -126,7 +126,7 @@ TEST(FlowMap, OutlivesAllThatItWasMadeFrom) {
   ASSERT_FALSE(watched.expired());
   EXPECT_EQ(map->order(), 3);
   EXPECT_EQ(map->jet()[0][0], 3);
-  // A jet that is taken from a temporary lives on its own.
+  // A jet that is taken from a temporary remains valid.
   const std::vector<Series<double>>& taken = Map(*map).jet();
   map.reset();
   EXPECT_EQ(taken[0][0], 3);
@@ -140,7 +140,7 @@ TEST(FlowMap, IsAValue) {
   EXPECT_EQ(largest_difference(b, kick(2)), 0);
   const Map c = std::move(b);
   EXPECT_EQ(largest_difference(c, kick(2)), 0);
-  b = a;  // what has been moved from takes a new value
+  b = a;  // an object that has been moved from takes a new value
   EXPECT_EQ(largest_difference(b, drift(5)), 0);
   EXPECT_EQ(largest_difference(Map(Map(c).jet()), kick(2)), 0);
 }

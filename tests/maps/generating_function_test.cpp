@@ -38,7 +38,7 @@ TEST(GeneratingFunction, OfTheOscillatorHasItsClosedForms) {
     ASSERT_EQ(S.order(), 2);
     const std::vector<double> expected{0, 0, 0, form.squares[0], form.mixed, form.squares[1]};
     for (std::size_t k = 0; k < 6; ++k) {
-      // Inverted once: a few units in the last place.
+      // The map is inverted once, which costs a few units in the last place.
       EXPECT_NEAR(S[k], expected[k], 2e-14) << form.kind << ", monomial " << k;
     }
   }
@@ -56,8 +56,8 @@ TEST(GeneratingFunction, HasTheOneFormAsItsGradient) {
     for (std::size_t i = 0; i < 6; ++i) {
       const auto gradient = derivative(S, i);
       for (std::size_t k = 1; k < sigma[i].size(); ++k) {
-        // The gradient differs from the form by what the form lacks of being closed: round-off of
-        // the jet times the powers of the condition that the inversion costs.
+        // The gradient differs from the form by the amount by which the form is not closed:
+        // round-off of the jet times the powers of the condition that the inversion costs.
         const int d = sigma[i].space().degree(k);
         EXPECT_NEAR(static_cast<double>(gradient[k] - sigma[i][k]), 0,
                     1e-14 * std::pow(4 * inversion.condition, d))

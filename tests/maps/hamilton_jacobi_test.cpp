@@ -127,7 +127,7 @@ TEST(HamiltonJacobi, IsSolvedToRoundOffByAllKindsOfThePaperOrbit) {
 }
 
 TEST(HamiltonJacobi, IsNoAccuracy) {
-  // The midpoint rule with a step of 0.3 is wrong in the first digit, yet symplectic.
+  // The midpoint rule with a step of 0.3 is wrong in the first digit, but its map is symplectic.
   const auto jet = test::paper_jet<Extended>(test::quarter_period, 3, test::fixed_step(1, 0.3));
   EXPECT_GT(test::relative_error(quarter_jet(), jet, 1), 1e-2);
   EXPECT_LE(worst(residuals(paper_system(), jet, test::inverted_jet(jet, "F1"))), 1e-30);
@@ -150,7 +150,7 @@ TEST(HamiltonJacobi, SeesTheSignOfEveryEntryOfTheOneForm) {
       }
       EXPECT_GT(scaled, 1e-2) << name << ", entry " << i;
     }
-    // And through the residual itself: an initial variable enters with its one-form alone.
+    // The residual itself shows the change too: an initial variable enters with its one-form alone.
     for (std::size_t i = 0; i < 3; ++i) {
       auto turned = inversion;
       turned.remaining_initial[i] *= -1;
@@ -175,7 +175,7 @@ TEST(HamiltonJacobi, SeesAHamiltonianThatIsNotThatOfTheEquations) {
 TEST(HamiltonJacobi, SeesAChangeOfTheJet) {
   const auto& jet = quarter_jet();
   const SeriesSpace& space = jet[0].space();
-  // Every linear coefficient and one of each degree above.
+  // The test changes every linear coefficient and one coefficient of each higher degree.
   std::vector<std::size_t> monomials{1, 2, 3, 4, 5, 6};
   for (int d = 2; d <= 4; ++d) monomials.push_back(space.first(d) + 1);
   for (const char* name : {"F1", "F2", "qpq-qqp"}) {
@@ -190,7 +190,7 @@ TEST(HamiltonJacobi, SeesAChangeOfTheJet) {
           above_floor = std::max(above_floor, found[e].scaled / floor[e].scaled);
         }
         EXPECT_GT(above_floor, 1000) << name << ", component " << i << ", monomial " << k;
-        // A change at degree d meets S from degree d + 1 on.
+        // A change at degree d affects S from degree d + 1 on.
         for (int below = 2; below <= space.degree(k); ++below) {
           EXPECT_LE(found[static_cast<std::size_t>(below - 2)].scaled, 1e-13);
         }
@@ -209,8 +209,8 @@ TEST(HamiltonJacobi, ResidualOfExplicitMethodsFollowsTheTolerance) {
         integrate_fehlberg78(test::problem_of(flow), {.tolerance = tolerance}, statistics);
     found.push_back(worst(residuals(paper_system(), jet, test::inverted_jet(jet, "F1"))));
   }
-  // A hundredth of the tolerance a hundredth of the residual, within a factor of ten, and far above
-  // the round-off of a symplectic jet.
+  // For a hundredth of the tolerance the residual is a hundredth, within a factor of ten, and far
+  // above the round-off of a symplectic jet.
   for (std::size_t i = 1; i < found.size(); ++i) {
     EXPECT_GT(found[i - 1] / found[i], 10);
     EXPECT_LT(found[i - 1] / found[i], 1000);

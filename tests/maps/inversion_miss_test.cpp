@@ -28,7 +28,8 @@ const FlowJet<Extended>& jet() {
 }
 
 TEST(InversionMiss, IsRoundOff) {
-  // Extended precision, times a power of the conditions, which are below 1e4 here.
+  // The bound is the round-off of extended precision times a power of the conditions, which are
+  // below 1e4 here.
   const auto kinds = all_kinds(3);
   for (std::size_t k = 0; k < kinds.size(); k += 9) {
     EXPECT_LE(miss(jet(), test::inverted_jet(jet(), kinds[k])), 1e-29) << kinds[k].name();
@@ -61,7 +62,7 @@ TEST(InversionMiss, IsInfiniteForWhatIsNoNumber) {
 }
 
 TEST(InversionMiss, OfALinearMap) {
-  // Degrees without terms have neither a miss nor a scale of their own.
+  // A degree without terms has neither a miss nor a scale of its own.
   const test::Flow<double> flow{harmonic_oscillator(1, 1e12), {0.2, 0.1}, 0.7e-6, 3, {}};
   const auto map = convert_map<Extended>(test::run_gauss(flow));
   EXPECT_LE(miss(map, test::inverted_jet(map, "F1")), 1e-32);

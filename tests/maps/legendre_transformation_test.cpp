@@ -33,7 +33,7 @@ Series<T> direct_function(const FlowJet<T>& jet, const GeneratingFunctionKind& k
   return generating_function(one_form(test::inverted_jet(jet, kind)));
 }
 
-/// The classical kinds and mixed ones, all with a condition below 40 at a quarter period.
+/// The classical kinds and some mixed kinds, all with a condition below 40 at a quarter period.
 std::vector<GeneratingFunctionKind> selected_kinds() {
   std::vector<GeneratingFunctionKind> kinds;
   for (const char* name : {"F1", "F2", "F3", "F4", "qpq-qqp", "qqp-pqp", "ppq-qpp"}) {

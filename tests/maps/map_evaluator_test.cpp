@@ -146,7 +146,8 @@ TEST(MapEvaluator, APointThatIsNotFiniteHarmsNoOther) {
 }
 
 TEST(MapEvaluator, AValueDoesNotDependOnTheOtherPoints) {
-  // The place of a point in its block, and whether the block is full, make no difference.
+  // The result does not depend on the place of a point in its block, nor on whether the block is
+  // full.
   const Map map = random_map(6, 6, 4, 9);
   const MapEvaluator evaluator(map);
   constexpr std::size_t count = 100;

@@ -42,7 +42,8 @@ TEST(PartialInversion, GivesBackTheDeviationsForAllKinds) {
       auto y = jet[kind.final_variable(i, false)];
       y[0] = 0;
       for (int d = 1; d <= 3; ++d) {
-        // Extended round-off times a power of the condition that grows with the degree.
+        // The bound is extended round-off times a power of the condition that grows with the
+        // degree.
         const double bound = 1e-30 * std::pow(10 * inversion.condition, 2 * d);
         EXPECT_LE(test::largest_of_degree(initial[i] - x, d), bound) << kind.name();
         EXPECT_LE(test::largest_of_degree(final_rest[i] - y, d), bound) << kind.name();

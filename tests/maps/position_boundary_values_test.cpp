@@ -101,7 +101,8 @@ TEST(PositionBoundaryValues, JoinPositionsAboutACircularOrbitByEveryKind) {
     const auto block = inverted_block(jet, kind);
     if (condition_number(block) > 1e3) continue;
     const auto inversion = inverted(jet, kind);
-    // Rounding of the inversion and, where momenta are solved for, of that; both of numbers near 1.
+    // The bound is the rounding of the inversion and, if momenta are solved for, of the solution;
+    // all numbers are near 1.
     const double bound = 50 * rounding * inversion.condition * inversion.condition;
     EXPECT_LE(error_of(inversion, initial, final, 1), bound) << kind.name();
     ++count;
@@ -122,8 +123,8 @@ TEST(PositionBoundaryValues, AnswerToTheDegreeByEveryKindOfANonlinearMap) {
     double worst = 0;
     for (int degree = 1; degree <= order; ++degree) {
       const double error = error_of(inversion, initial, final, degree);
-      // The terms left out: the map's coefficients are below 1, and the linear part that is
-      // inverted magnifies a power by less than 10.
+      // The error is that of the neglected terms: the map's coefficients are below 1, and the
+      // inverted linear part amplifies a power by less than 10.
       EXPECT_LE(error, std::pow(10 * size, degree + 1) + 50 * rounding * size)
           << kind.name() << " " << degree;
       if (degree == 1) worst = error;
@@ -139,7 +140,7 @@ TEST(PositionBoundaryValues, F1AnswersByEvaluationWithTheMapsOwnPolynomial) {
   const std::vector<double> z = {30, -50, 20, 70};
   const auto jet = jet_of(map, 4, 3);
   const auto inversion = inverted(jet, parse_kind("F1", 2));
-  constexpr double size = 1e4;  // of a x^2 and 2 b x y
+  constexpr double size = 1e4;  // the terms a x^2 and 2 b x y
   EXPECT_LE(error_of(inversion, state_of(z), state_of(map(z)), 2), 50 * rounding * size);
 }
 

@@ -20,7 +20,7 @@ double worst(const std::vector<SymplecticityDefect>& defects) {
 }
 
 TEST(Symplecticity, OfGaussIsRoundOffAtEveryDegreeAndStep) {
-  // Issue 2: at most 1e-13 scaled, however coarse the step.
+  // The scaled defect is at most 1e-13, however coarse the step.
   const struct {
     int stages;
     double step;

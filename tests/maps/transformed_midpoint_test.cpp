@@ -19,12 +19,12 @@
 namespace hamjet::test {
 namespace {
 
-/// What the two runs differ by, and how large what they should agree on is.
+/// The differences of the two runs, and the sizes of the compared numbers.
 struct Comparison {
-  double energy_error = 0;       ///< largest, in the original coordinates
-  double energy_difference = 0;  ///< largest, of the two energy errors
-  double state_difference = 0;   ///< largest, of f_k^-1(Z_k) and z_k
-  double condition = 0;          ///< largest, of A_k
+  double energy_error = 0;       ///< the largest one, in the original coordinates
+  double energy_difference = 0;  ///< the largest difference of the two energy errors
+  double state_difference = 0;   ///< the largest difference of f_k^-1(Z_k) and z_k
+  double condition = 0;          ///< the largest condition of A_k
 };
 
 template <class Real>
@@ -72,7 +72,7 @@ TEST(TransformedMidpoint, EnergyErrorOfTheDoubleWellIsInvariantUnderRotation) {
   }
 }
 
-/// Another map at every k, without relation between them.
+/// A new map at every k, without relation to the others.
 template <class Real>
 CanonicalTransformationSequence<Real> random_sequence(Eigen::Index n, unsigned seed) {
   return [n, seed](long k) {
@@ -81,7 +81,7 @@ CanonicalTransformationSequence<Real> random_sequence(Eigen::Index n, unsigned s
   };
 }
 
-// In extended precision the difference falls by 18 digits: it is round-off, and nothing else.
+// In extended precision the difference falls by 18 digits, so that it is round-off alone.
 TEST(TransformedMidpoint, EnergyErrorIsInvariantUnderRandomSymplecticMaps) {
   RandomNumbers random(51);
   for (const Eigen::Index n : {1, 2, 3}) {
@@ -89,7 +89,7 @@ TEST(TransformedMidpoint, EnergyErrorIsInvariantUnderRandomSymplecticMaps) {
     const Vector<double> z = random_vector<double>(2 * n, random, 0.6);
     const Comparison result = compare<double>(system, random_sequence<double>(n, 52), z, 0.05, 100);
     EXPECT_GT(result.energy_error, 1e-6) << n;
-    // A hundred steps, each with a rounding of 1e-16 times the condition of A_k.
+    // The bound counts a hundred steps, each with a rounding of 1e-16 times the condition of A_k.
     EXPECT_LE(result.energy_difference, 1e-14 * result.condition) << n;
     EXPECT_LE(result.state_difference, 1e-14 * result.condition) << n;
     const Comparison extended =
@@ -134,7 +134,7 @@ TEST(TransformedMidpoint, MappingTheEndByTheNextTransformationIsAnotherScheme) {
   double largest = 0;
   for (long step = 0; step < 1000; ++step) {
     z = midpoint_step<double>(h, z, 0.1);
-    Z = midpoint_step<double>(k, Z, 0.1);  // its end is taken for Z_(k+1)
+    Z = midpoint_step<double>(k, Z, 0.1);  // the end of the step is taken for Z_(k+1)
     k.set_map(f(step + 1));
     largest = larger(largest, std::abs((k.value(Z) - energy) - (h.value(z) - energy)));
   }
@@ -160,7 +160,7 @@ TEST(TransformedHamiltonian, IsTheRecordedOne) {
     const auto& b = recorded.derivatives(Z);
     EXPECT_LE(largest_entry(a.gradient - b.gradient), tolerance * map.condition());
     EXPECT_LE(largest_entry(a.hessian - b.hessian), tolerance * map.condition());
-    // J grad K(Z) = A J grad H(z), at Z, the image; in print it is taken at z.
+    // J grad K(Z) = A J grad H(z), at the image Z; the print takes it at z.
     const Vector<Extended> image =
         map.matrix() * symplectic_unit_times(Vector<Extended>(h.derivatives(z).gradient));
     const auto field_error = [&](const Vector<Extended>& at) {
@@ -172,7 +172,7 @@ TEST(TransformedHamiltonian, IsTheRecordedOne) {
   }
 }
 
-// The step is made with K_k in Z: it satisfies the midpoint equations of the recorded K_k.
+// The step is made with K_k in Z, so that it satisfies the midpoint equations of the recorded K_k.
 TEST(TransformedMidpoint, StepSolvesTheEquationsOfTheTransformedHamiltonian) {
   RandomNumbers random(54);
   const DynamicalSystem system = random_system(2, random);

@@ -13,7 +13,8 @@ namespace {
 
 using Support = TruncationEstimate::Support;
 
-/// Estimate for the terms d_1, d_2, ..., d_N (all of one sign), state and position alike.
+/// The estimate for the terms d_1, d_2, ..., d_N, all of one sign and the same for state and
+/// position.
 TruncationEstimate estimate(const std::vector<double>& terms) {
   DegreeShares shares;
   const std::size_t n = terms.size();
@@ -37,13 +38,15 @@ TEST(TruncationEstimate, OfAGeometricSeriesIsItsRemainder) {
       const TruncationEstimate result = estimate(powers(x, n));
       const double remainder = std::pow(x, n + 1) / (1 - x);
       EXPECT_EQ(result.support, Support::inside);
-      // d_1 is read from the sum of the lower degrees, which can only lower the mean decay.
+      // The estimate reads d_1 from the sum of the lower degrees, which can only lower the mean
+      // decay.
       EXPECT_NEAR(result.miss, remainder, 1e-9 * remainder) << n << " " << x;
     }
   }
 }
 
-// Of 0.3^k, where one of the degrees vanishes by chance, or is a thousandth of what it should be.
+// The terms are 0.3^k, but one of the degrees vanishes by chance or is a thousandth of its expected
+// size.
 TEST(TruncationEstimate, DecayIsNotDecidedByOneSmallDegree) {
   constexpr double x = 0.3;
   for (const double part : {1.0, 1e-3, 0.0}) {
@@ -56,7 +59,7 @@ TEST(TruncationEstimate, DecayIsNotDecidedByOneSmallDegree) {
 }
 
 TEST(TruncationEstimate, OfTheExponentialSeriesIsAboveItsRemainder) {
-  // The ratios fall, x / k, so that the last one is more than those to come.
+  // The ratios x / k fall, so that the last ratio is larger than the following ones.
   for (const double x : {0.01, 0.1, 0.5}) {
     std::vector<double> terms;
     double remainder = std::exp(x) - 1;

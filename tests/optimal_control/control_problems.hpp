@@ -68,7 +68,7 @@ struct Solved {
   double cost = 0;
 };
 
-/// By the discrete maximum principle.
+/// Solves the problem by the discrete maximum principle.
 inline Solved solve(const OptimalControlProblem& problem, Discretization form, double duration,
                     const ShootingSettings& settings) {
   const double step = duration / static_cast<double>(settings.steps);

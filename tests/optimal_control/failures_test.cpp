@@ -44,8 +44,7 @@ TEST(ControlFailures, WrongSizesAreNamed) {
   });
 }
 
-// From rest nothing moves to first order in z: the derivative has no direction that lowers z's
-// residual.
+// From rest, nothing moves to first order in z: no direction lowers z's residual.
 TEST(ControlFailures, NoConvergenceNamesIterationResidualAndRank) {
   const auto problem = heisenberg({0, 0, 0}, {0, 0, 1});
   for (const Discretization form : both_forms) {
@@ -97,7 +96,7 @@ TEST(ControlFailures, StationarityThatDoesNotFixTheControlIsAnError) {
                [&] { map.advance(Eigen::Vector2d(1, 1), Eigen::VectorXd::Zero(1)); });
 }
 
-/// A state that nothing moves and a control that costs nothing.
+/// A state that does not move and a control without cost.
 struct Idle {
   template <class T>
   T running_cost(std::span<const T> x, std::span<const T> u) const {
@@ -109,7 +108,7 @@ struct Idle {
   }
 };
 
-// No equation holds the controls: columns of zeros.
+// No equation determines the controls, so that their columns are zero.
 TEST(ControlFailures, SparseEquationsWithoutTheControlAreSingular) {
   const auto problem = make_optimal_control_problem(
       "idle", 1, 1, Idle{}, fixed_state(std::vector{0.}), fixed_state(std::vector{1.}));
@@ -122,7 +121,8 @@ TEST(ControlFailures, SparseEquationsWithoutTheControlAreSingular) {
                [&] { solve_karush_kuhn_tucker(problem, Discretization::stormer, 0.25, guess); });
 }
 
-// Of one and of two degrees of freedom: of a matrix of one number Eigen tells success in any case.
+// The problems have one and two degrees of freedom; for a matrix of one number Eigen reports
+// success in any case.
 TEST(ControlFailures, PhasesOfNoNumbersAreAnError) {
   for (const Eigen::Index n : {1, 2}) {
     LagrangianPlane plane(n);

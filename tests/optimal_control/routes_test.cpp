@@ -39,9 +39,9 @@ TEST(ControlRoutes, AdvanceMapsAreSymplecticAndEqual) {
         EXPECT_LT((a.point - b.point).norm(), 1e-14);
         EXPECT_LT((a.control - b.control).norm(), 1e-14);
         EXPECT_LT((a.jacobian - b.jacobian).norm(), 1e-14);
-        // Not the identity, which is symplectic too.
+        // The Jacobian is not the identity, which is symplectic too.
         EXPECT_GT((a.jacobian - Eigen::MatrixXd::Identity(size, size)).norm(), 0.05);
-        // The Jacobian is the map's own: central differences, whose error is about 1e-10.
+        // The Jacobian is compared with central differences of the map, whose error is about 1e-10.
         for (Eigen::Index j = 0; j < size; ++j) {
           const Eigen::VectorXd shift = 1e-5 * Eigen::VectorXd::Unit(size, j);
           const Eigen::VectorXd slope = (principle.advance(point + shift, guess).point -
@@ -55,7 +55,7 @@ TEST(ControlRoutes, AdvanceMapsAreSymplecticAndEqual) {
   }
 }
 
-/// The three solutions of a problem, all from a costate that is 1 % off.
+/// The three solutions of a problem, all from a costate that is wrong by 1 %.
 void expect_equal_routes(const OptimalControlProblem& problem, Discretization form, double duration,
                          ShootingSettings settings) {
   const Solved principle = solve(problem, form, duration, settings);
@@ -73,7 +73,8 @@ void expect_equal_routes(const OptimalControlProblem& problem, Discretization fo
       trajectory_of(propagate_arc(map, point, settings.control_guess, settings.steps));
   const KarushKuhnTuckerSolution a =
       solve_karush_kuhn_tucker(problem, form, step, guess, {}, settings.conditions);
-  EXPECT_GT(difference(guess, b.trajectory).largest(), 1e-3);  // so that there was work to do
+  EXPECT_GT(difference(guess, b.trajectory).largest(),
+            1e-3);  // shows that the solver had something to do
   EXPECT_LT(difference(a.trajectory, b.trajectory).largest(), 5e-14);
   EXPECT_LT(difference(principle.solution.trajectory, b.trajectory).largest(), 5e-14);
   EXPECT_NEAR(discrete_cost(problem, form, step, a.trajectory) /

@@ -69,7 +69,8 @@ TEST(Transversality, FreeFinalVelocity) {
   }
 }
 
-// To a line that takes both states; and from a line, with a fixed end.
+// One transfer ends on a line that takes both states; another starts from a line and has a fixed
+// end.
 TEST(Transversality, EndsOnLines) {
   const int steps = 25;
   for (const Discretization form : both_forms) {
@@ -145,7 +146,7 @@ TEST(Transversality, EndOnACylinder) {
     EXPECT_NEAR(t.costates.back()(2), 0, 1e-14);
     // p_n = 2 x_n lambda with |p_n| = |u| = 1 against the motion.
     EXPECT_NEAR(t.final_multipliers(0), -0.25, 1e-14);
-    // Any direction will do.
+    // Any direction solves the problem.
     EXPECT_EQ(solved.solution.rank, solved.solution.unknowns - 1);
   }
 }

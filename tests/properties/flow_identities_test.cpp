@@ -4,13 +4,14 @@
 #include "properties/random_flows.hpp"
 #include "support/map.hpp"
 
-// What holds of every Hamiltonian flow, coefficient by coefficient, and needs no reference: on
-// random flows. Differences are compared with the sum of the magnitudes of the terms that cancel.
+// Identities that hold for every Hamiltonian flow, coefficient by coefficient, and need no
+// reference; they are tested on random flows. Differences are compared with the sum of the
+// magnitudes of the terms that cancel.
 
 namespace hamjet {
 namespace {
 
-/// Steps so short that order 16 leaves nothing but round-off: at most 250 of them, each with some
+/// The steps are so short that order 16 leaves only round-off: at most 250 steps, each with some
 /// units of 1e-16. A wrong coefficient leaves 1e-3 or more.
 constexpr double bound = 1e-12;
 const GaussSettings short_steps = test::fixed_step(8, 0.02);
@@ -151,7 +152,7 @@ TEST(FlowIdentities, KindsOfGeneratingFunction) {
           inversions.push_back(test::inverted_jet(map, kind));
         }
         RC_PRE(inversions.size() >= 2);
-        // There and back between the first of them and each other.
+        // The transformation goes there and back between the first kind and each other kind.
         const auto require_same = [](const auto& from, const auto& to) {
           const auto direct = generating_function(one_form(to));
           const auto other =

@@ -8,14 +8,14 @@
 #include <string>
 #include <utility>
 
-// Properties that hold whatever the numbers are, on random ones: rapidcheck.
+// Properties that hold for all numbers are tested on random numbers by rapidcheck.
 
 namespace hamjet::test {
 
-/// Checks a property on `cases` random cases, the same in every run and on every machine; times
-/// the number in the variable HAMJET_PROPERTY_FACTOR, for a longer search. One that fails is made
-/// simpler as long as it fails, and its numbers are printed by the names that they were drawn with
-/// (`Gen::as`).
+/// Checks a property on `cases` random cases, which are the same in every run and on every machine.
+/// The variable HAMJET_PROPERTY_FACTOR multiplies their number for a longer search. A case that
+/// fails is simplified as long as it fails, and its numbers are printed by the names with which
+/// they were drawn (`Gen::as`).
 template <class Property>
 void expect_property(Property&& property, int cases) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -34,13 +34,14 @@ void expect_property(Property&& property, int cases) {
   ADD_FAILURE() << message.str();
 }
 
-/// A whole number between the two, both included; simplest: the lowest.
+/// A whole number between two bounds, both included; the simplest one is the lowest.
 inline rc::Gen<int> whole_number(int lowest, int highest) {
-  // rapidcheck draws from a part of the range first; here the whole is wanted from the first case.
+  // rapidcheck draws from a part of the range first; here the first case already uses the whole
+  // range.
   return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(lowest, highest + 1));
 }
 
-/// A number between the two with many digits; simplest: the lowest.
+/// A number of many digits between two bounds; the simplest one is the lowest.
 inline rc::Gen<double> number(double lowest, double highest) {
   constexpr int parts = 1'000'003;
   return rc::gen::map(whole_number(0, parts), [=](int part) {

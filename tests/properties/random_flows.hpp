@@ -49,7 +49,7 @@ Flow<Real> random_flow(int order) {
   return flow;
 }
 
-/// The same flow about another start, over another time.
+/// The same flow from another start, over another time.
 template <class Real>
 FlowJet<Real> jet_from(const Flow<Real>& flow, const std::vector<Real>& start, const Real& duration,
                        const GaussSettings& settings = adaptive()) {
@@ -65,8 +65,8 @@ std::vector<Series<Real>> composed(const std::vector<Series<Real>>& outer,
   return compose(outer, inner);
 }
 
-/// All coefficients by magnitude: composed with another such map it bounds every sum that the
-/// composition of the two forms, and so its rounding.
+/// The map of all coefficients by magnitude. Composed with another map of magnitudes, it bounds
+/// every sum that the composition of the two forms, and therefore its rounding.
 template <class Real>
 std::vector<Series<Real>> magnitudes(std::vector<Series<Real>> map) {
   using std::abs;
@@ -76,7 +76,7 @@ std::vector<Series<Real>> magnitudes(std::vector<Series<Real>> map) {
   return map;
 }
 
-/// The largest |difference| / bound over all coefficients; both zero counts as 0.
+/// The largest |difference| / bound over all coefficients; if both are zero, the ratio counts as 0.
 template <class Real>
 double largest_ratio(const std::vector<Series<Real>>& a, const std::vector<Series<Real>>& b,
                      const std::vector<Series<Real>>& bound) {

@@ -10,7 +10,7 @@
 
 #include "properties/property.hpp"
 
-// Random scenes, all of them right, as tables that can be printed in many ways.
+// Random valid scenes, as tables that can be printed in many ways.
 
 namespace hamjet::test {
 
@@ -160,13 +160,13 @@ inline SceneTables random_scene() {
   return tables;
 }
 
-/// How a scene is printed: for each value the number of a way to write it, from 0.
+/// The style of a printed scene: for each value the number of a way to write it, from 0.
 using Style = std::function<int(int ways)>;
 
 inline std::string printed_number(double x, const Style& style) {
   switch (style(6)) {
     case 0:
-      return fmt::format("{}", x);  // the shortest; 3 for 3.0
+      return fmt::format("{}", x);  // the shortest form; 3 for 3.0
     case 1:
       return fmt::format("{:.17g}", x);
     case 2:
@@ -263,7 +263,7 @@ inline std::string printed(const SceneTables& tables, const Style& style) {
   return text;
 }
 
-/// The plainest.
+/// The plainest style.
 inline std::string printed(const SceneTables& tables) {
   return printed(tables, [](int) { return 0; });
 }

@@ -6,12 +6,12 @@
 #include "properties/random_scene.hpp"
 #include "support/random_series.hpp"
 
-// What is written in another way is the same scene; what is misspelt is named.
+// A scene that is written in another way is the same scene; a misspelt word is named in the error.
 
 namespace hamjet::io {
 namespace {
 
-/// All that a scene holds, numbers to the last bit.
+/// The whole contents of a scene, with numbers to the last bit.
 std::string all_of(const Scene& scene) {
   std::string text;
   const auto add_text = [&](std::string_view part) { text += fmt::format("{};", part); };
@@ -76,7 +76,7 @@ TEST(SceneTexts, WrittenInAnotherWayItIsTheSame) {
               test::printed(tables, [&](int ways) { return random.integer(0, ways - 1); });
           RC_LOG() << text;
           RC_ASSERT(all_of(parse_scene(text, "scene.toml")) == expected);
-          // Lines of Windows.
+          // Line ends of Windows.
           for (std::size_t end = text.find('\n'); end != text.npos;
                end = text.find('\n', end + 2)) {
             text.insert(end, 1, '\r');
@@ -101,7 +101,7 @@ TEST(SceneTexts, TheOrderOfTablesAndKeysDoesNotMatter) {
       50);
 }
 
-/// A word with a mistake of typing.
+/// A word with a typing mistake.
 std::string misspelt(std::string word) {
   const auto place = static_cast<std::size_t>(
       *test::whole_number(0, static_cast<int>(word.size()) - 1).as("place of the mistake"));
@@ -132,7 +132,7 @@ void require_named(const test::SceneTables& tables, const std::string& name) {
     RC_LOG() << message;
     RC_ASSERT(error.kind() == ErrorKind::scene);
     RC_ASSERT(message.starts_with("scene.toml:"));
-    // Some are keys of other models or methods.
+    // Some words are keys of other models or methods.
     RC_ASSERT(message.find("unknown key, got " + name) != message.npos ||
               message.find("has no key " + name) != message.npos);
     return;

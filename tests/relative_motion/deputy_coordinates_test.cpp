@@ -153,7 +153,7 @@ TEST(DeputyCoordinates, BothWaysAreInverseToRounding) {
           state_of({7000 / (1 - e), e, 90 * (1.001 + uniform(generator)), 180 * uniform(generator),
                     180 * uniform(generator), 180 * uniform(generator)});
       const auto coordinates = coordinates_of(chief, form);
-      // From a metre to a thousand kilometres.
+      // The sizes are from a metre to a thousand kilometres.
       const double size = std::pow(10, -3.4 + 3.4 * uniform(generator));
       std::vector<double> deviation;
       for (int i = 0; i < 6; ++i) deviation.push_back(0.1 * size * uniform(generator));
@@ -193,7 +193,7 @@ TEST(DeputyCoordinates, RefusesWhatHasNoElements) {
     EXPECT_THROW(coordinates_of(equatorial, form), Error);
     const std::vector<double> chief = state_of(chief_orbit);
     const auto coordinates = coordinates_of(chief, form);
-    // Twice the speed escapes.
+    // A deputy with twice the speed escapes.
     EXPECT_THROW(
         coordinates.coordinates(std::vector<double>{0, 0, 0, chief[3], chief[4], chief[5]}), Error);
     EXPECT_THROW(coordinates.deviation(below_the_centre), Error);

@@ -6,7 +6,7 @@
 #include "../../src/report/drawing/along_time_charts.hpp"
 #include "comparison_samples.hpp"
 
-// Charts of what was recorded along a run.
+// Charts of the quantities recorded along a run.
 
 namespace hamjet::io {
 namespace {
@@ -35,7 +35,7 @@ TEST(AlongTimeChart, BreaksAtSingularTimesAndFollowsThePrecision) {
     EXPECT_EQ(chart.notes[1],
               "Lines are broken at the vertical lines, where the kind does not exist.");
     fit(chart);
-    // In double precision all of this is below what rounding leaves.
+    // In double precision all these values are below the rounding floor.
     if (precision == Precision::extended) {
       EXPECT_EQ(chart.notes.size(), 2U);
       EXPECT_LE(chart.y.lower, 1e-33);

@@ -9,7 +9,7 @@
 #include "comparison_samples.hpp"
 #include "support/text.hpp"
 
-// What charts say of values that they cannot show, how curves, rules and pages are drawn.
+// Tests what charts show for values out of their range, and how curves, rules and pages are drawn.
 
 namespace hamjet::io {
 namespace {
@@ -47,7 +47,8 @@ TEST(ChartFloor, LiftsWhatIsBelowItAndSaysSo) {
   EXPECT_DOUBLE_EQ(chart.y.lower, 1e-16);
 }
 
-// No decades of empty plot: an axis whose values lie far above the floor does not go down to it.
+// Decades of empty plot are avoided: an axis whose values lie far above the floor does not go down
+// to it.
 TEST(ChartFloor, DoesNotReachForAnEmptyPart) {
   Chart chart = chart_of({{0, 2e-5}, {2, 1e-3}});
   chart.y.floor = 1e-16;
@@ -110,7 +111,7 @@ ComparedRun timed_run(const std::string& series, double error_m, double seconds)
   return run;
 }
 
-// Errors beyond the separation of 10 km are no part of the picture; lines join the unbeaten runs.
+// Errors beyond the separation of 10 km are not drawn; lines join the unbeaten runs.
 TEST(WorkPrecision, ShowsTheRegionThatMatters) {
   ComparisonResult result = sample_comparison();
   result.runs = {timed_run("a", 2e4, 1e-4), timed_run("a", 1, 1e-3),  timed_run("a", 0.5, 9e-3),
@@ -134,7 +135,7 @@ TEST(WorkPrecision, ShowsTheRegionThatMatters) {
   EXPECT_EQ(chart.curves[3].title, "b");
 }
 
-// Where no run is better than useless, the useless ones are all that there is to see.
+// If no run is better than useless, the useless runs are drawn.
 TEST(WorkPrecision, KeepsWhatThereIs) {
   ComparisonResult result = sample_comparison();
   result.runs = {timed_run("a", 2e4, 1e-4), timed_run("b", 3e4, 1e-3)};

@@ -17,7 +17,7 @@
 #include "support/temporary_directory.hpp"
 #include "support/text.hpp"
 
-// report.html, and the files of its plots.
+// Tests report.html and the files of its plots.
 
 namespace hamjet::io {
 namespace {
@@ -212,7 +212,7 @@ TEST(ComparisonCharts, AccountForEveryPoint) {
       EXPECT_NE(notes.find("are drawn at it: 2."), std::string::npos) << notes;
     }
     if (chart.name == "convergence") {
-      // The fitted line, its two points filled, the third run hollow.
+      // The fitted line is drawn, its two points are filled, and the third run is hollow.
       ASSERT_EQ(chart.curves.size(), 3U);
       EXPECT_TRUE(chart.curves[0].has_line);
       ASSERT_EQ(chart.curves[0].points.size(), 2U);

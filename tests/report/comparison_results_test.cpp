@@ -13,7 +13,7 @@
 #include "hamjet/error.hpp"
 #include "support/text.hpp"
 
-// compare.json is read back as it was written, and compare.csv says the same numbers.
+// compare.json is read back as it was written, and compare.csv contains the same numbers.
 
 namespace hamjet::io {
 namespace {
@@ -89,7 +89,7 @@ void expect_same(const std::vector<ComparedRun>& a, const std::vector<ComparedRu
   }
 }
 
-/// The one line that a file is refused with.
+/// The line with which a file is refused.
 std::string refusal(const std::string& text) {
   try {
     read_comparison_runs(text);
@@ -317,8 +317,8 @@ TEST(ComparisonCsv, SaysTheNumbersOfTheRuns) {
   }
 }
 
-// A family of methods and its series of runs are two things: what the table has a row for is not
-// denied.
+// A family of methods and its series of runs are different things: the report does not deny a
+// result that the table has.
 TEST(ComparisonVerdict, TellsAFamilyFromItsSeries) {
   ComparisonResult result = sample_comparison();
   ComparedRun coarse = sample_run("gauss, 2 stages", "gauss2", 1e-9);
@@ -333,7 +333,7 @@ TEST(ComparisonVerdict, TellsAFamilyFromItsSeries) {
   EXPECT_NE(text.find("no method of another family than gauss that was run reaches it"),
             std::string::npos)
       << text;
-  // One of another family that was not timed is not denied either.
+  // A run of another family that was not timed is not denied either.
   result.runs.push_back(sample_run("fehlberg78", "fehlberg", 1e-9));
   result.runs.back().settings.method = IntegrationMethod::fehlberg78;
   result.runs.back().seconds.clear();

@@ -6,7 +6,7 @@
 #include "hamjet/report/comparison_report.hpp"
 #include "sample_scene.hpp"
 
-// A small comparison with every case in it that a report must show, of made-up numbers.
+// A small comparison of made-up numbers with every case that a report must show.
 
 namespace hamjet::io {
 

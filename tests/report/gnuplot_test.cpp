@@ -11,8 +11,8 @@
 
 #include "support/temporary_directory.hpp"
 
-// A picture that cannot be drawn costs a line that says why, and nothing else. Small scripts of the
-// shell stand for gnuplot.
+// If a picture cannot be drawn, the output has one line with the reason, and nothing else changes.
+// Small shell scripts replace gnuplot.
 
 namespace hamjet::io {
 namespace {
@@ -39,7 +39,7 @@ TEST(Gnuplot, IsEndedAfterItsTimeLimit) {
   EXPECT_TRUE(outcome.is_late);
 }
 
-// On a busy machine a child waits: what it waits is not its own time.
+// On a busy machine a child process waits, and this time is not its own.
 TEST(Gnuplot, IsGivenProcessorTime) {
   const test::TemporaryDirectory folder;
   const GnuplotLimits limits{.processor = std::chrono::milliseconds(200)};
@@ -80,7 +80,7 @@ TEST(Gnuplot, SaysTrulyWhyItDoesNotStart) {
                 .problem.find("cannot be started, so there are no plots: "
                               "Permission denied"),
             std::string::npos);
-  // The loader of a program whose libraries do not fit into memory ends so.
+  // The loader of a program whose libraries do not fit into memory ends in this way.
   const std::string unloaded =
       write_program(folder, "unloaded", "echo 'libX.so: failed to map segment' >&2; exit 127");
   const std::string problem = run_gnuplot(unloaded, "").problem;
@@ -94,7 +94,8 @@ TEST(Gnuplot, WhatItComplainsOfIsHandedOn) {
   const test::TemporaryDirectory folder;
   const std::string program =
       write_program(folder, "failing", "echo drawn; echo 'bad axis' >&2; exit 1");
-  // More than a socket holds, which the child does not read: writing must neither block nor raise.
+  // The text is larger than the buffer of a socket, and the child does not read it: writing must
+  // neither block nor raise a signal.
   const GnuplotOutcome outcome = run_gnuplot(program, std::string(4 << 20, '#'));
   EXPECT_TRUE(outcome.is_started);
   EXPECT_TRUE(outcome.output.empty());

@@ -12,9 +12,9 @@
 #include "hamjet/studies/propagation.hpp"
 #include "studies/descriptions/settings_fields.hpp"
 
-// What a scene says must stand in the results. Every member of the settings is listed here with the
-// lines of a scene that give it a value of its own and with what JSON must then have; a member that
-// is not listed fails the test.
+// Everything that a scene says must be in the results. Every member of the settings is listed here
+// with the lines of a scene that give it a value of its own and with the expected JSON; a member
+// that is not listed fails the test.
 
 namespace hamjet::io {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 struct Written {
-  std::string lines;  ///< of the member's table
+  std::string lines;  ///< keys of the member's table
   OrderedJson value;
 };
 using WrittenFields = std::map<std::string_view, Written>;

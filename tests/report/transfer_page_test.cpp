@@ -138,7 +138,7 @@ TEST(TransferCharts, ShadeTheMarginsAndMarkWhatIsDoubtful) {
   EXPECT_NE(script.find("behind"), std::string::npos);
 }
 
-// Without the point that has no answer the time at which F1 does not exist still breaks the lines.
+// Even without the point that has no answer, the time at which F1 does not exist breaks the lines.
 TEST(TransferCharts, LinesAreBrokenAtSingularTimesAndForWantOfAnAnswer) {
   TransferResult result = sample_transfer();
   EXPECT_EQ(velocity_change_chart(result).notes,
@@ -252,7 +252,7 @@ TEST(TransferCharts, WhatMovesIsNoDot) {
   EXPECT_LT(chart.x.upper - chart.x.lower, 6 * 8.1);
 }
 
-// One tick on an axis says nothing of its scale.
+// One tick alone does not show the scale of an axis.
 TEST(TransferCharts, EachAxisHasThreeTicks) {
   RelativeTrajectory trajectory = sample_trajectory();
   for (RelativeState& state : trajectory.states) state.position_m.x() *= 0.64;  // to 1.6 km

@@ -129,11 +129,11 @@ TEST(TransferView, CountsAndMisses) {
   EXPECT_EQ(time_text(5432), "5432 s (90.5 min)");
 }
 
-// Every time has one outcome, so that they add up to the times.
+// Every time has exactly one outcome, so that the counts add up to the number of times.
 TEST(TransferView, OutcomesAddUpAndSayWhatToDo) {
   TransferResult result = sample_transfer();
-  result.points[4].is_beyond_tolerance = true;  // its refinement failed
-  result.points[5].is_beyond_tolerance = true;  // refined
+  result.points[4].is_beyond_tolerance = true;  // the refinement of this point failed
+  result.points[5].is_beyond_tolerance = true;  // this point is refined
   const auto outcomes = transfer_outcomes(result);
   ASSERT_EQ(outcomes.size(), 4U);
   std::size_t sum = 0;
@@ -211,7 +211,7 @@ TEST(TransferSummary, SaysWhetherTheLeastIsAtAnEndOrBetweenTheListedTimes) {
   EXPECT_EQ(between["miss_m"], result.least_between->refined->miss_m);
   result.points[0] = sample_point(1, 0.75);
   EXPECT_EQ(summary()["is_first_or_last_time"], true);
-  // The only time there is has no ends about it.
+  // A single time has no times before or after it.
   result.points.resize(1);
   EXPECT_EQ(summary()["is_first_or_last_time"], false);
 }
@@ -300,7 +300,7 @@ TEST(TransferTable, ImpulsesHaveDigitsOfAnySize) {
   EXPECT_NE(table().find(" 0.300000 "), std::string::npos) << table();
   EXPECT_EQ(table().find("-0.000000"), std::string::npos) << table();
   EXPECT_NE(table().find("1.2500e-07  -2.5000e-10"), std::string::npos) << table();
-  // Without a bound none is told, and a time at which the solver failed is.
+  // Without a bound no bound is printed; a time at which the solver failed is printed.
   EXPECT_EQ(table().find("no impulses cost less"), std::string::npos) << table();
   EXPECT_NE(table().find("is not known"), std::string::npos) << table();
   EXPECT_EQ(table().find("the solver failed"), std::string::npos) << table();

@@ -6,8 +6,8 @@
 #include "hamjet/report/relative_motion_report.hpp"
 #include "sample_scene.hpp"
 
-// Small results of the studies of relative motion with every case in them that a report must show,
-// of made-up numbers.
+// Small results of the studies of relative motion, of made-up numbers, with every case that a
+// report must show.
 
 namespace hamjet::io {
 
@@ -138,7 +138,7 @@ inline AssignmentResult sample_assignment() {
   return result;
 }
 
-/// No gnuplot is asked for the files that need no plot.
+/// The files that need no plot do not need gnuplot.
 inline ReportOrigin sample_transfer_origin(const std::string& gnuplot = "/nonexistent/gnuplot") {
   return {"hamjet transfer sample.toml --set 'title=\"<b>\"'", "2025-01-02 03:04 UTC",
           "A processor & more", "", gnuplot};

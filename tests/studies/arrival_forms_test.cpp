@@ -10,7 +10,7 @@
 #include "studies/exact_flow.hpp"
 
 // Ends of transfers, and slots, in all forms of deputies. Expected: the same transfer as to the
-// same place told along the axes, which conversions by hand say, for a chief that moves.
+// same place given along the axes, which conversions by hand give for a moving chief.
 
 namespace hamjet {
 namespace {
@@ -50,14 +50,14 @@ TEST(ArrivalForms, CurvilinearAtWhereTheChiefIsThen) {
     const double angle = arc / r;
     const double fast = (chief[0] * chief[3] + chief[1] * chief[4] + chief[2] * chief[5]) /
                         (r / unit) * unit / scene.units.time_s;
-    // Its distance grows as the chief's, the arc stays: the angle shrinks as 1 / r.
+    // The chief's distance grows and the arc stays, so that the angle shrinks as 1 / r.
     const double turning = -angle * fast / r;
     scene.transfer->end.position_m = {(r + radial) * std::cos(angle) - r,
                                       (r + radial) * std::sin(angle), 0};
     scene.transfer->end.velocity_m_s = {
         fast * std::cos(angle) - (r + radial) * std::sin(angle) * turning - fast,
         fast * std::sin(angle) + (r + radial) * std::cos(angle) * turning, 0};
-    // Rounding of 7000 km, and misses of a micrometre in a third of a revolution.
+    // The bound is the rounding of 7000 km, and misses of a micrometre in a third of a revolution.
     expect_same(result.points[k], study_transfer(scene).points[0], 1e-7);
   }
 }
@@ -76,7 +76,7 @@ TEST(ArrivalForms, NothingIsTheChief) {
   }
 }
 
-// An orbit of the deputy's own is where it is, whoever the chief.
+// An orbit of the deputy's own does not depend on the chief.
 TEST(ArrivalForms, AnOwnOrbit) {
   Scene scene = transfer_to({});
   scene.transfer->times = {0.6 * paper_period};

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The least sum over all ways to give the rows from `row` on columns of their own, `left` of them
-/// none.
+/// The least sum over all assignments of the rows from `row` on to columns of their own, with
+/// `left` of the columns free.
 double least_of_all(const std::vector<std::vector<double>>& costs, std::size_t row,
                     std::vector<bool>& is_taken, std::size_t left) {
   if (row == costs.size()) return 0;
@@ -33,7 +33,8 @@ double least_of_all(const std::vector<std::vector<double>>& costs, std::size_t r
   return least;
 }
 
-// Expected: all assignments, of as many rows as columns and of other numbers of them.
+// Expected: the least over all assignments, for equal and for different numbers of rows and
+// columns.
 TEST(LeastAssignment, IsTheLeastOfAll) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> uniform(0.1, 50);
@@ -75,7 +76,7 @@ TEST(LeastAssignment, IsTheLeastOfAll) {
   EXPECT_GT(unequal, 50);
 }
 
-/// Deputies that rest near slots of their own, listed in another order.
+/// The deputies rest near slots of their own, and the slots are listed in another order.
 Scene swarm() {
   Scene scene = paper_chief(3);
   TransferSettings transfer;
@@ -130,7 +131,7 @@ TEST(Assignment, OfUnequalNumbersTheFewerAllFindOne) {
   const Scene scene = swarm();
   const double all = study_assignment(scene).total_change_m_s;
   Scene few_slots = scene;
-  few_slots.assignment->slots.pop_back();  // that of deputy 0, which rests nearest to it
+  few_slots.assignment->slots.pop_back();  // the slot of deputy 0, which rests nearest to it
   const AssignmentResult three = study_assignment(few_slots);
   ASSERT_EQ(three.transfers.size(), 3U);
   EXPECT_EQ(left_out(three.transfers, 4, &AssignedTransfer::deputy).size(), 1U);
@@ -142,8 +143,8 @@ TEST(Assignment, OfUnequalNumbersTheFewerAllFindOne) {
   few_deputies.assignment->time = AssignmentTime::common;
   const AssignmentResult others = study_assignment(few_deputies);
   ASSERT_EQ(others.transfers.size(), 3U);
-  // Each deputy rests 12 m from a slot of its own, and kilometres from the others': that of the
-  // deputy that is not there stays empty. It is the last.
+  // Each deputy rests 12 m from a slot of its own and kilometres from the other slots. The slot of
+  // the missing deputy, the last one, stays empty.
   EXPECT_EQ(left_out(others.transfers, 4, &AssignedTransfer::slot), (std::vector<std::size_t>{3}));
   EXPECT_EQ(exit_code(others), 0);
 }
@@ -169,7 +170,7 @@ TEST(Assignment, EachPairsTimeIsItsBest) {
     const AssignmentResult at = study_assignment(one);
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < 4; ++j) {
-        // Another history of kinds changes what order 3 leaves out.
+        // Another sequence of kinds changes the neglected terms of order 3.
         EXPECT_GE(at.costs[i][j].total_change_m_s, any.costs[i][j].total_change_m_s - 1e-6);
       }
     }
@@ -222,7 +223,8 @@ TEST(Assignment, DeputiesKeepApart) {
   EXPECT_EQ(exit_code(study_assignment(scene)), 0);
 }
 
-// The largest impulse decides which transfers are chosen; an ellipsoid marks those that are.
+// The largest impulse decides which transfers are chosen, and an ellipsoid marks the transfers that
+// enter it.
 TEST(Assignment, KeepsTheLimitsOfTransfers) {
   Scene scene = swarm();
   const AssignmentResult free = study_assignment(scene);

@@ -51,15 +51,16 @@ TEST(BoundedFormation, HasTheSizeAndShapeOfClohessyAndWiltshire) {
   ASSERT_EQ(deputy.failure, "");
   EXPECT_NEAR(deputy.size_m, 1e4, 2);
   const Eigen::Vector3d widths = half_widths_m(deputy.first);
-  // What is left is J2 and the square of the size over the distance.
+  // The remaining differences are of the order of J2 and of the square of the size over the
+  // distance.
   constexpr double left = 5e-3;
   EXPECT_NEAR(widths[0], 7e6 * deputy.amplitude, left * widths[0]);
   EXPECT_NEAR(widths[1], 2 * widths[0], left * widths[1]);
   EXPECT_NEAR(widths[2], 0.5 * 1e4, left * widths[2]);
 }
 
-// Flown over the window the map's deputy stays, better than by first-order J2 invariance, and the
-// refined one at least as well.
+// Over the window the flown deputy of the map stays nearer than the deputy of first-order J2
+// invariance, and the refined one stays at least as near.
 TEST(BoundedFormation, StaysBetterThanByTheoriesOfFirstOrder) {
   Scene scene = oblate_circle(4, 0.05);
   scene.bounded->sizes_m = {3e5};
@@ -77,7 +78,8 @@ TEST(BoundedFormation, StaysBetterThanByTheoriesOfFirstOrder) {
   EXPECT_GT(drift(BoundedRule::mean_elements), drift(BoundedRule::j2_invariant));
 }
 
-// The start in each form is the same deputy: canonical deviations come back from all six.
+// The start in each form describes the same deputy: all six forms give back the canonical
+// deviations.
 TEST(BoundedFormation, TellsTheStartInEveryForm) {
   const Scene scene = oblate_circle(3, 0.05);
   const BoundedFormation formation = study_bounded(scene);
@@ -122,8 +124,8 @@ TEST(BoundedFormation, ADeputyBehindStaysInItsBox) {
   EXPECT_LT(std::abs(deputy.drifts.back().along), 1e-8);
 }
 
-// Both flown on by Boost.odeint in long double, with an acceleration written by hand, to the end of
-// the window and over a revolution more.
+// Both are flown on by Boost.odeint in long double, with an acceleration written by hand, to the
+// end of the window and for one revolution more.
 TEST(BoundedFormation, SizesInTheWindowAreThoseOfAnIndependentFlight) {
   Scene scene = oblate_circle(3, 0.05);
   scene.bounded->sizes_m = {1e6};
@@ -154,7 +156,7 @@ TEST(BoundedFormation, SizesInTheWindowAreThoseOfAnIndependentFlight) {
   EXPECT_NEAR(deputy.size_m, 1e6, 1e3);
 }
 
-// A small drift alone does not make it the formation that was asked for.
+// A small drift alone does not make a deputy the requested formation.
 TEST(BoundedFormation, ASizeThatIsNotHeldIsMarked) {
   BoundedFormation formation = study_bounded(oblate_circle(3));
   EXPECT_NE(io::bounded_verdict(formation).find("Sizes are held to a quarter"), std::string::npos);
@@ -212,8 +214,8 @@ TEST(MeanElementDeputies, AreInvariantToFirstOrder) {
   EXPECT_GT(difference(MeanElementRule::equal_elements, 1e-2), 5 * fine);
 }
 
-// A follower that cross_track and along_track alone take too far is refused at its size, the others
-// are not.
+// A follower that cross_track and along_track alone take too far is refused at its size; the other
+// deputies are not refused.
 TEST(BoundedFormation, SaysWhichSizeHasNoDeputy) {
   Scene scene = oblate_circle(2);
   scene.bounded->along_track = 0.95;
@@ -244,7 +246,7 @@ TEST(BoundedFormation, RefusesWhatIsNoOrbitAndWhatLiesInTheEquator) {
   }
 }
 
-// Kepler's ellipses all come back to themselves.
+// All ellipses of Kepler's problem are closed.
 TEST(FrozenOrbitStudy, RefusesAFieldInWhichAllOrbitsAreFrozen) {
   Scene scene = oblate_circle(2, 0.1);
   scene.system.J = {};
@@ -294,7 +296,7 @@ TEST(FrozenOrbitStudy, TellsNoTurnThatRoundingMakes) {
   };
   const FrozenOrbitStudy near = study_frozen_orbit(far(20));
   ASSERT_EQ(near.failure, "");
-  // The next order is of J2 and of the eccentricity squared.
+  // The next order is that of J2 and of the square of the eccentricity.
   EXPECT_NEAR(std::abs(near.circles.front().rotation_number) / turn(20), 1, 0.005);
   for (const double distance : {2000., 8000.}) {
     const FrozenOrbitStudy study = study_frozen_orbit(far(distance));

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "../poincare/independent_flight.hpp"
-#include "impulses/circle_transfers.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
+#include "impulses/circle_transfers.hpp"
 #include "studies/exact_flow.hpp"
 
 namespace hamjet {
@@ -64,7 +64,7 @@ TEST(BoxControl, LeavesAndReturnsAfterClohessyAndWiltshire) {
                                    (at_rest.head<3>() - flow.topLeftCorner<3, 3>() * out.head<3>());
   const Eigen::Vector3d arrival =
       flow.bottomLeftCorner<3, 3>() * out.head<3>() + flow.bottomRightCorner<3, 3>() * velocity;
-  const double unit = 1 / scene.units.time_s;  // rates of metres to m/s
+  const double unit = 1 / scene.units.time_s;  // converts rates of metres to m/s
   const Eigen::Vector3d first_change = (velocity - out.tail<3>()) * unit;
   const double size = first_change.norm();
   EXPECT_LT((first.first_m_s - first_change).norm(), 10 * relative * size);
@@ -78,7 +78,7 @@ using LongVector3 = Eigen::Matrix<long double, 3, 1>;
 LongVector3 long_place(const IndependentFlight::State& z) { return {z[0], z[1], z[2]}; }
 LongVector3 long_velocity(const IndependentFlight::State& z) { return {z[3], z[4], z[5]}; }
 
-/// R, T and N as rows, of a chief.
+/// The axes R, T and N of a chief, as rows.
 Eigen::Matrix<long double, 3, 3> long_axes(const IndependentFlight::State& chief) {
   const LongVector3 r = long_place(chief).normalized();
   const LongVector3 n = long_place(chief).cross(long_velocity(chief)).normalized();
@@ -128,9 +128,9 @@ class IndependentPair {
   long double metres_a_second_;
 };
 
-// What is told of a stationkept deputy is flown again from its start with the impulses alone, by
-// another integrator in long double with forces written by hand: it is within the box at all times
-// between them, and each return ends at the reference's place.
+// The reported path of a stationkept deputy is flown again from its start with the impulses alone,
+// by another integrator in long double with forces written by hand. The deputy must be within the
+// box at all times between the impulses, and each return must end at the reference's place.
 TEST(BoxControl, StaysInTheBoxByAnIndependentIntegration) {
   const Eigen::Vector3d place(0, -100, 0);
   constexpr double half_width = 0.2;
@@ -179,7 +179,7 @@ TEST(BoxControl, NeedsOneReturnOntoTheChiefsOwnOrbit) {
   const BoxControl box = keep_in_box(scene, follower, 2 * std::numbers::pi);
   ASSERT_EQ(box.returns.size(), 1U);
   EXPECT_LE(box.farthest, 1.001);
-  // The same from the follower's own start: none.
+  // From the follower's own start no impulse is needed.
   scene.deputy.reset();
   EXPECT_EQ(keep_in_box(scene, follower, 2 * std::numbers::pi).returns.size(), 0U);
 }
@@ -198,7 +198,7 @@ TEST(BoxControl, RefusesAStartOutsideAndABoxBelowRounding) {
   EXPECT_NE(message().find("starts outside of it, at 1.2 of its half widths"), std::string::npos)
       << message();
   scene.deputy.reset();
-  // Below the rounding of flights, some 1e-9 m.
+  // The value is below the rounding of flights, some 1e-9 m.
   scene.bounded->box.half_widths_m = Eigen::Vector3d::Constant(1e-12);
   EXPECT_NE(message().find("bounded.box: "), std::string::npos) << message();
 }

@@ -25,7 +25,7 @@ CanonicalTransformationStudy paper_study() {
 // energy error exceeds the 0.00125 that the start is above it.
 TEST(CanonicalTransformation, PaperCase) {
   const auto result = run_study(paper_study());
-  // Four roundings of terms of H that are up to 1/2 in size at the start, and cancel.
+  // The bound is four roundings of terms of H that are up to 1/2 in size at the start, and cancel.
   EXPECT_NEAR(result.energy, 0.00125, 4 * 0x1p-54);
   EXPECT_EQ(exit_code(result), 0);
   ASSERT_EQ(result.runs.size(), 2U);
@@ -37,11 +37,11 @@ TEST(CanonicalTransformation, PaperCase) {
     EXPECT_LE(run.largest_energy_difference, 1e-13);
     EXPECT_NEAR(run.largest_transformed_energy_error, run.largest_energy_error, 1e-13);
     EXPECT_LE(run.largest_symplecticity_defect, 4e-16);
-    EXPECT_NEAR(run.largest_condition, 2, 1e-14);  // a rotation, in the Frobenius norm
-    // One of sine and cosine is at least 0.7, so that no inversion amplifies.
+    EXPECT_NEAR(run.largest_condition, 2, 1e-14);  // the norm of a rotation is the Frobenius norm
+    // Sine or cosine is at least 0.7, so that no inversion amplifies.
     ASSERT_TRUE(run.hamilton_jacobi_residual);
     EXPECT_LE(*run.hamilton_jacobi_residual, 2e-15);
-    // The identity at k = 0 has no first kind; all other angles have both.
+    // The identity at k = 0 has no first kind; at all other angles both kinds exist.
     EXPECT_EQ(run.first_kind.steps, run.steps - 1);
     EXPECT_EQ(run.second_kind.steps, run.steps);
     EXPECT_EQ(run.failure, "");
@@ -59,7 +59,7 @@ TEST(CanonicalTransformation, PaperCase) {
               std::cos(angle) * last.original[0] - std::sin(angle) * last.original[1], 1e-11);
 }
 
-// What is not stored counts all the same.
+// Steps that are not stored count too.
 TEST(CanonicalTransformation, LongRunsAreThinned) {
   auto study = paper_study();
   study.steps = {0.0031};

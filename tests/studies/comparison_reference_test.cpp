@@ -5,7 +5,7 @@
 #include "comparison_scenes.hpp"
 #include "support/reference_data.hpp"
 
-// The reference of a comparison against routes that share nothing with it.
+// The reference of a comparison is compared with computations that share nothing with it.
 
 namespace hamjet {
 namespace {
@@ -53,7 +53,7 @@ TEST(ComparisonReference, IsTheClosedFormOfKeplersJet) {
   // x = 1 - 18 pi^2 d^2, y = -6 pi d - 24 pi d^2, from the change of the period.
   Scene scene = kepler_scene();
   scene.nominal = {1, 0, 0, 0, 1, 0};
-  scene.duration = 6.283185307179586;  // 2 pi to 2.4e-16, which bounds what can be seen
+  scene.duration = 6.283185307179586;  // 2 pi is known to 2.4e-16, which limits the comparison
   scene.variables = {4};
   const auto result = compared(scene, {series_of("one", {{gauss("one", 8, 0.2)}})});
   const double pi = std::acos(-1.0);

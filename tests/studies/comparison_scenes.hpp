@@ -8,7 +8,7 @@
 
 #include "hamjet/studies/comparison.hpp"
 
-// Small scenes to compare integrators on.
+// Small scenes for comparisons of integrators.
 
 namespace hamjet {
 

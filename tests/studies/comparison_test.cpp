@@ -14,7 +14,7 @@
 namespace hamjet {
 namespace {
 
-/// A store in memory that counts.
+/// A store in memory that counts its calls.
 class MemoryStore : public ReferenceStore {
  public:
   std::optional<ReferenceResult> load(const std::string& key, const SpacePointer&) override {
@@ -29,7 +29,7 @@ class MemoryStore : public ReferenceStore {
 };
 
 TEST(Comparison, PutsEachRunInItsCorner) {
-  // The broken one has one linear coefficient wrong by a thousandth: 10 m at 10 km.
+  // In the broken jet one linear coefficient is wrong by a thousandth: 10 m at 10 km.
   Candidate broken{gauss("broken", 8, 0.2)};
   broken.integrate = [](const FlowProblem<double>& problem, IntegrationStatistics& statistics,
                         const StepObserver<double>& observer) {
@@ -110,8 +110,8 @@ TEST(Comparison, InterruptedAndResumedGivesTheSameFigures) {
   compare(scene, {}, whole);
   ASSERT_TRUE(whole.is_complete);
 
-  // A task and a part of it, not a count of calls: short integrations are timed as often as the
-  // machine's speed asks for.
+  // The times are of a task and a part of it, not of a number of calls: short integrations are
+  // repeated as often as the machine's speed requires.
   struct Place {
     const char* task;
     double part;
@@ -145,7 +145,7 @@ TEST(Comparison, AnInterruptedResumptionLosesNothing) {
   struct Stop {};
   Scene scene = kepler_scene();
   scene.comparison.methods = {IntegrationMethod::gauss};
-  scene.comparison.stages = {2, 4, 4};  // the same twice is the same
+  scene.comparison.stages = {2, 4, 4};  // the same comparison twice gives the same
   scene.comparison.tolerances = {1e-4, 1e-8};
   ComparisonResult result;
   compare(scene, {}, result);
@@ -157,7 +157,8 @@ TEST(Comparison, AnInterruptedResumptionLosesNothing) {
   MemoryStore store;
   options.references = &store;
   store.references.emplace(reference_key(scene, scene.order), result.reference);
-  result.runs[2].error_by_degree.clear();  // damaged: judged again, where the signal comes
+  result.runs[2]
+      .error_by_degree.clear();  // a damaged entry is judged again, and the signal comes there
   EXPECT_THROW(compare(scene, options, result), Stop);
   EXPECT_EQ(result.runs.size(), runs - 1);
   EXPECT_EQ(result.cost_runs.size(), costs);
@@ -192,7 +193,7 @@ TEST(Comparison, ResumesWithoutRunningAgain) {
     settings.stages = 4;
     settings.step = 0.2;
     auto jet = integrate_gauss<double>(problem, settings, statistics, observer);
-    statistics.wall_seconds = 1;  // long enough to be timed alone
+    statistics.wall_seconds = 1;  // the run is long enough to be timed alone
     return jet;
   };
   ComparisonOptions options;

@@ -16,15 +16,15 @@
 #include "hamjet/studies/validity.hpp"
 #include "unseen_deputies.hpp"
 
-// What flow-box coordinates are for: how much further their polynomials reach than Cartesian ones
-// do, on the same flown deputies.
+// The purpose of flow-box coordinates: how much further their polynomials reach than Cartesian
+// ones, on the same flown deputies.
 
 namespace hamjet {
 namespace {
 
 using test::ChiefOrbit;
 
-/// A scene of an orbit, canonical.
+/// A scene of an orbit, in canonical numbers.
 Scene scene_of(const ChiefOrbit& orbit, double time, int order) {
   Scene scene = paper_chief(order);
   scene.system.J = orbit.field.J;
@@ -36,7 +36,7 @@ Scene scene_of(const ChiefOrbit& orbit, double time, int order) {
   return scene;
 }
 
-/// Proved reaches to 1 m by order, over 200 random deputies and those of the ascent.
+/// Proved reaches to 1 m for each order, over 200 random deputies and the deputies of the ascent.
 std::vector<double> reaches(Scene scene, JetCoordinates coordinates) {
   scene.coordinates = coordinates;
   scene.validity = ValiditySettings{};
@@ -82,8 +82,8 @@ TEST(FlowBoxReach, OfMolniya) {
   EXPECT_GT(reach_ratios(test::orbit_of(26600, 0.74, 63.4, 0, 270, 11), 1)[3], 15);
 }
 
-/// Tries deputies that the study never saw at the separations that it tells after two revolutions;
-/// returns that of order 4.
+/// Flies deputies that the study did not use, at the separations that it reports after two
+/// revolutions; returns the reach of order 4.
 double reach_that_holds(const ChiefOrbit& orbit) {
   Scene scene = scene_of(orbit, 2 * orbit.period, 4);
   scene.coordinates = JetCoordinates::flow_box;
@@ -119,8 +119,8 @@ TEST(FlowBoxReach, HoldsForDeputiesThatTheStudyHasNotFlown) {
   EXPECT_LT(reach_that_holds(paper_orbit), 128495 * std::pow(0.9535, -0.25));
 }
 
-// Where a tolerance is reached at separations at which misses grow by another law than the first
-// neglected degree's.
+// A tolerance may be reached at separations at which misses grow by another law than that of the
+// first neglected degree.
 TEST(FlowBoxReach, OfALargerToleranceIsLonger) {
   Scene scene = scene_of(sun_synchronous, 2 * sun_synchronous.period, 4);
   scene.coordinates = JetCoordinates::flow_box;
@@ -139,7 +139,7 @@ TEST(FlowBoxReach, OfALargerToleranceIsLonger) {
   }
 }
 
-/// By how much order 2 misses a deputy of other elements after a day.
+/// The miss of order 2 for a deputy of other elements after a day.
 double miss_m(const ChiefOrbit& chief, const ChiefOrbit& other, JetCoordinates coordinates) {
   Scene scene = scene_of(chief, 0, 2);
   scene.duration = 86400 / scene.units.time_s;
@@ -191,7 +191,7 @@ TEST(CoordinatesAtEnds, MayDiffer) {
   using enum JetCoordinates;
   const Scene scene = scene_of(sun_synchronous, 0.7 * sun_synchronous.period, 4);
   const ComputedProblem problem = make_problem(scene);
-  const SixNumbers<double> deviation = {2e-5, -3e-5, 1e-5, 1e-5, 2e-5, -2e-5};  // some 250 m
+  const SixNumbers<double> deviation = {2e-5, -3e-5, 1e-5, 1e-5, 2e-5, -2e-5};  // about 250 m
   std::vector<double> deputy = scene.nominal;
   for (std::size_t i = 0; i < 6; ++i) deputy[i] += deviation[i];
   const auto flown = exact_flow(problem.system, deputy, scene.duration);
@@ -243,7 +243,7 @@ TEST(FlowBoxPolynomials, HaveTheErrorThatIsEstimated) {
       const std::vector<double> errors = relative_error_by_degree(charted.jet, values);
       ASSERT_EQ(estimates.size(), errors.size());
       for (std::size_t d = 0; d < errors.size(); ++d) {
-        // Beside it the finer integrations are exact where the error is not rounding.
+        // For comparison, the finer integrations are exact where the error is not rounding.
         EXPECT_GE(estimates[d], errors[d]) << d;
         if (errors[d] <= 1e-9) continue;
         EXPECT_NEAR(estimates[d] / errors[d], 2, 0.02) << d;
@@ -270,8 +270,8 @@ TEST(FlowBoxTransfer, OfOrderTwoIsAsGoodAsCartesianOfOrderFour) {
   const TransferResult cartesian = study_transfer(scene);
   scene.coordinates = JetCoordinates::flow_box;
   const TransferResult charted = study_transfer(scene);
-  // No generating function is formed that nothing asks for, and none is said to have answered; how
-  // near a time is to a singular one is known all the same.
+  // Generating functions are formed only if they are needed, and only then reported as having
+  // answered. The distance of a time from a singular one is known in any case.
   EXPECT_FALSE(charted.points[0].kind.has_value());
   EXPECT_NEAR(charted.points[0].position_condition, cartesian.points[0].position_condition,
               1e-6 * cartesian.points[0].position_condition);
@@ -283,12 +283,12 @@ TEST(FlowBoxTransfer, OfOrderTwoIsAsGoodAsCartesianOfOrderFour) {
     ASSERT_TRUE(found[1].failure.empty()) << found[1].failure;
     EXPECT_LE(found[1].miss_m, wanted[3].miss_m + charted.flight_floor_m);
     EXPECT_LT(found[3].miss_m, 10 * charted.flight_floor_m);
-    // Both lead to the same place, so that their changes differ by what the misses are of them.
+    // Both lead to the same place, so that their velocity changes differ only by the misses.
     EXPECT_NEAR(found[3].start_change_m_s.norm(), wanted[3].start_change_m_s.norm(), 1e-3);
   }
 }
 
-// Coordinates that are chosen are those whose reach is the largest.
+// The automatic choice is the coordinates with the largest reach.
 TEST(AutomaticCoordinates, AreTheFurthest) {
   Scene scene = scene_of(sun_synchronous, sun_synchronous.period, 2);
   scene.coordinates = JetCoordinates::automatic;

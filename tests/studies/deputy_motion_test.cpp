@@ -37,11 +37,11 @@ TEST(DeputyMotion, ADeputyOnTheChiefsCircleStaysWhereItIs) {
     EXPECT_LT((motion.points[i].state.position_m - start.position_m).norm(), 1e-6);
   }
   EXPECT_LT(motion.largest_error_m(4), 1e-4);
-  // The line in which the linear theory has it leaves the circle by some R angle^2.
+  // The straight line of the linear theory leaves the circle by about R angle^2.
   EXPECT_GT(motion.largest_error_m(1), 0.1 * radius_m * angle * angle);
 }
 
-// A path that is drawn with fewer points a revolution has corners.
+// A path that is drawn with fewer points in each revolution has corners.
 TEST(DeputyMotion, APathOfManyRevolutionsIsSmooth) {
   RelativeState start;
   const double angle = 1e-4;
@@ -103,7 +103,7 @@ TEST(DeputyMotion, TheExtremesAreFoundBetweenTheTimes) {
   EXPECT_NEAR(std::remainder(u0 + farthest.time + a / 2 - quarter, half_turn), 0, 1e-6);
   EXPECT_NEAR(nearest.state.position_m.norm(), separation_m(-a / 2), 1e-5);
   EXPECT_NEAR(farthest.state.position_m.norm(), separation_m(quarter - a / 2), 1e-5);
-  // 7 m, where the nearest of the listed times is hundreds of metres away.
+  // 7 m, although the nearest of the listed times is hundreds of metres away.
   double listed = 1e9;
   for (std::size_t k = 0; k < motion.points.size(); ++k) {
     listed = std::min(listed, hamjet::separation_m(motion.points[k].state));

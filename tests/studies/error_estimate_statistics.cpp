@@ -31,11 +31,10 @@ double quantile(const std::vector<double>& sorted, double part) {
   return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
 }
 
-/// Errors over their estimates.
+/// Ratios of errors to their estimates.
 class Ratios {
  public:
-  /// An error that is less than rounding may be anything, and its estimate is not too high for
-  /// that.
+  /// An error below rounding may have any size, and its estimate is not too high for it.
   void add(double error, double estimate, double rounding, const std::string& what) {
     ratios_.push_back(error / estimate);
     const double excess = estimate / std::max(error, rounding);
@@ -113,8 +112,8 @@ bool report_scenes(int count, std::uint64_t first) {
   return ratios.print(100);
 }
 
-/// Draws from the first seed on until so many are judged: `add` takes a seed and adds the ratios of
-/// its draw, none where it cannot be judged, and tells their number.
+/// Draws from the first seed on until the given number is judged. `add` takes a seed, adds the
+/// ratios of its draw (none if the draw cannot be judged), and returns their number.
 bool report(const char* what, int count, std::uint64_t first,
             const std::function<std::size_t(std::uint64_t, Ratios&)>& add) {
   Ratios ratios;

@@ -31,7 +31,7 @@ TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomJets) {
   int judged = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     Scene scene = estimated_jet(seed);
-    if (scene.order > 6) continue;  // their closed form takes long
+    if (scene.order > 6) continue;  // their closed form takes much time
     for (const JudgedDegree& one : judged_degrees_of_jet(scene)) {
       ++judged;
       EXPECT_LT(one.ratio(), 30) << description(scene) << ", degree " << one.degree << ", error "
@@ -41,8 +41,8 @@ TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomJets) {
   EXPECT_GT(judged, 20);
 }
 
-// Two of a dozen directions, those along which the jet itself is largest, show no more than a
-// hundredth of these errors.
+// The two of a dozen directions along which the jet itself is largest show no more than a hundredth
+// of these errors.
 TEST(ErrorEstimate, SeesWhatAFewStepsMissAtHighDegrees) {
   for (const std::uint64_t seed : {377, 282}) {
     const Scene scene = jet_of_few_steps(seed);
@@ -59,7 +59,7 @@ const SelfCheck& estimate_check(const RunResult& run) {
   return run.checks[static_cast<std::size_t>(SelfCheckName::error_estimate)];
 }
 
-/// About a revolution of the paper's chief to order 3.
+/// About a revolution of the paper's chief, with order 3.
 Scene coarse_scene() {
   Scene scene = paper_chief(3);
   scene.duration = 12;

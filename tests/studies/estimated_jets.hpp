@@ -16,14 +16,15 @@
 
 namespace hamjet::test {
 
-/// The units in which an orbit of some semi-major axis, kilometres, has that of a scene.
+/// The units in which an orbit of the given semi-major axis, in kilometres, has the semi-major axis
+/// of a scene.
 inline CanonicalUnits units_of_axis(double axis_km, double axis) {
   constexpr double mu_km3_s2 = 398600.4415;
   const double length_km = axis_km / axis;
   return {length_km, std::sqrt(length_km * length_km * length_km / mu_km3_s2)};
 }
 
-/// An orbit with its units: Kepler's, or about an oblate body. Returns the period.
+/// Draws an orbit with its units, of Kepler's problem or about an oblate body. Returns the period.
 inline double draw_orbit(Draw& draw, Scene& scene, bool is_kepler) {
   const double axis = draw.one_in(2) ? draw.decades(1e-4, 1e8) : draw.between(1, 2);
   const double eccentricity = draw.one_in(3) ? draw.between(0.8, 0.95) : draw.between(0, 0.8);
@@ -41,7 +42,7 @@ inline double draw_orbit(Draw& draw, Scene& scene, bool is_kepler) {
   return 2 * std::numbers::pi * std::pow(axis, 1.5);
 }
 
-/// Gauss, as most scenes have it: mostly the stages that are the default.
+/// Settings of Gauss as most scenes have them, mostly with the default number of stages.
 inline void draw_gauss(Draw& draw, Scene& scene, double period, bool may_be_fixed) {
   IntegratorSettings settings;
   settings.label = "run";
@@ -105,7 +106,7 @@ inline FlowJet<Extended> jet_of_ellipse(const Scene& scene) {
   return {end.begin(), end.end()};
 }
 
-/// The degrees of a jet beside their true errors; none of one that failed or has no estimate.
+/// The degrees of a jet with their true errors; empty for a jet that failed or has no estimate.
 inline std::vector<JudgedDegree> judged_degrees_of_jet(const Scene& scene) {
   const PropagationResult result = propagate(scene);
   if (scene.system.model != SystemModel::kepler) {

@@ -13,12 +13,12 @@
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/studies/propagation.hpp"
 
-// Random scenes of all models and methods, coarse and fine, whose estimated errors are compared
-// with the true ones.
+// Random scenes of all models and methods, coarse and fine, to compare their estimated errors with
+// the true ones.
 
 namespace hamjet::test {
 
-/// Draws that are the same with every standard library.
+/// Random numbers that are the same with every standard library.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : generator_(seed) {}
@@ -26,7 +26,7 @@ class Draw {
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
   }
-  /// Equally likely in every decade.
+  /// A number that is equally likely in every decade.
   double decades(double low, double high) {
     return std::exp(between(std::log(low), std::log(high)));
   }
@@ -122,7 +122,7 @@ inline void draw_integrator(Draw& draw, Scene& scene, double period) {
   settings.label = "run";
   const int highest = cvode_available() ? 11 : 9;
   const int method = draw.whole(0, highest);
-  // Above 1 the steps of a coarse run resolve nothing.
+  // Above 1 a coarse run resolves nothing.
   const double step = period / draw.decades(20, 2000);
   if (method <= 4) {
     constexpr int stages[] = {2, 3, 4, 6, 8, 8, 12, 16};
@@ -168,7 +168,7 @@ inline Scene estimated_scene(std::uint64_t seed) {
   const std::size_t size = scene.nominal.size();
   scene.duration = period * (draw.one_in(4) ? draw.between(0.02, 0.5) : draw.between(0.5, 2));
   if (draw.one_in(8)) scene.duration = -scene.duration;
-  // The reference's time grows fast with the order.
+  // The time for the reference grows fast with the order.
   scene.order = size == 2 ? draw.whole(1, 6) : (draw.one_in(6) ? 3 : draw.whole(1, 2));
   for (std::size_t v = 0; v < size; ++v) scene.variables.push_back(v);
   if (draw.one_in(6)) {  // a subset
@@ -188,8 +188,8 @@ struct JudgedDegree {
   double ratio() const { return error / estimate; }
 };
 
-/// The degrees of the scene's run; none of a run that failed, or without estimate, or where the
-/// reference does not know itself well enough to judge.
+/// The degrees of the scene's run. Empty if the run failed, has no estimate, or has a reference
+/// that is not accurate enough to judge it.
 inline std::vector<JudgedDegree> judged_degrees(const PropagationResult& result) {
   std::vector<JudgedDegree> degrees;
   const RunResult& run = result.runs.front();
@@ -202,7 +202,7 @@ inline std::vector<JudgedDegree> judged_degrees(const PropagationResult& result)
   return degrees;
 }
 
-/// A line that says which scene it was.
+/// A line that identifies the scene.
 inline std::string description(const Scene& scene) {
   const IntegratorSettings& settings = scene.integrators.front();
   std::string text =

@@ -66,7 +66,7 @@ TEST(FlightChecks, AFallIntoTheCentreFails) {
   EXPECT_NE(surface(checks).text.find("the deputy cannot be followed"), std::string::npos);
 }
 
-// At its middle it is half a kilometre above or below the chief's circle.
+// At its middle the path is half a kilometre above or below the chief's circle.
 TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
   Scene scene = half_revolution_along_the_track();
   const auto study = [&](double radius_km) {
@@ -83,7 +83,7 @@ TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
   EXPECT_TRUE(low.points[0].is_below_surface);
   EXPECT_FALSE(low.points[0].is_candidate());
   EXPECT_EQ(exit_code(low), 1);
-  // So is the way of a plan.
+  // The path of a plan does the same.
   RelativeState start = scene.transfer->start;
   start.velocity_m_s += low.points[0].best().start_change_m_s;
   WayLimits way(scene);

@@ -7,8 +7,8 @@
 namespace hamjet {
 namespace {
 
-// Each orbit at the edge of a chart is answered as an independent integration flies it, in nodal
-// sections or in others in their place, or is refused with the reason.
+// For each orbit at the edge of a chart the answer agrees with an independent integration, in nodal
+// sections or in their replacement, or the orbit is refused with the reason.
 TEST(FlowBoxCases, AreAnsweredReplacedOrRefusedWithTheReason) {
   int right = 0;
   int replaced = 0;
@@ -27,8 +27,8 @@ TEST(FlowBoxCases, AreAnsweredReplacedOrRefusedWithTheReason) {
   EXPECT_GE(refused, 3);
 }
 
-// What is wrong is found out: a refusal for another reason, one where an answer is expected, and an
-// answer where a refusal is.
+// The test notices mistakes: a refusal for another reason, a refusal where an answer is expected,
+// and an answer where a refusal is expected.
 TEST(FlowBoxCases, FindWhatIsWrong) {
   std::vector<StabilityCase> cases = flow_box_cases();
   const auto refused = std::find_if(cases.begin(), cases.end(), [](const StabilityCase& subject) {

@@ -6,7 +6,7 @@
 
 #include "hamjet/studies/scene.hpp"
 
-// Chiefs and transfers to try formation studies on.
+// Chiefs and transfers for tests of formation studies.
 
 namespace hamjet {
 
@@ -18,14 +18,14 @@ inline IntegratorSettings precise_gauss() {
   return settings;
 }
 
-/// Equal parts of a span, its end included.
+/// Equal parts of a span, with its end.
 inline std::vector<double> equal_times(double span, int count) {
   std::vector<double> times;
   for (int k = 1; k <= count; ++k) times.push_back(span * k / count);
   return times;
 }
 
-/// The same behind 0.
+/// Equal parts of a span after 0.
 inline std::vector<double> equal_times_from_0(double span, int count) {
   std::vector<double> times = equal_times(span, count);
   times.insert(times.begin(), 0);

@@ -10,7 +10,7 @@
 #include "dynamics/harmonic_oscillator.hpp"
 #include "support/flow.hpp"
 
-// The four systems of the paper that every integrator is tested on.
+// The four systems of the paper on which every integrator is tested.
 
 namespace hamjet::test {
 
@@ -18,7 +18,7 @@ struct IntegratorCase {
   std::string name;
   DynamicalSystem system;
   std::vector<double> start;
-  double period;  ///< about which the motion returns, or of its linear part
+  double period;  ///< the period of the motion, or of its linear part
 };
 
 inline void PrintTo(const IntegratorCase& one, std::ostream* out) { *out << one.name; }

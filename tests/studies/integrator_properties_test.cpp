@@ -13,9 +13,9 @@
 #include "support/magnitude.hpp"
 #include "support/map.hpp"
 
-// Every integrator with fixed steps on every system of the paper: what theory says of its two-form,
-// its order, its reversibility and its energy. What choose their own steps by a tolerance claim
-// none of these: integrator_tolerance_test.
+// Tests every integrator with fixed steps on every system of the paper: the theory's statements on
+// its two-form, order, reversibility and energy. Methods that choose their steps by a tolerance
+// promise none of these, see integrator_tolerance_test.
 
 namespace hamjet {
 namespace {

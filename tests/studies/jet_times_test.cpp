@@ -7,8 +7,8 @@
 #include "studies/formation_scenes.hpp"
 #include "support/errors.hpp"
 
-// The jets of one run at several times. Expected: runs of their own to each time in extended
-// precision, and without the times the same jet at the end.
+// The jets of one run at several times. Expected: the results of separate runs to each time in
+// extended precision, and the same jet at the end as without the times.
 
 namespace hamjet::test {
 namespace {
@@ -38,7 +38,7 @@ TEST(JetTimes, AreRightAndTheirEstimatesAreNotFarBelowTheErrors) {
     ASSERT_EQ(one.error_estimate.size(), errors.size());
     for (std::size_t d = 0; d < errors.size(); ++d) {
       EXPECT_LT(errors[d], 1e-6) << one.time << ", degree " << d;
-      // What the estimate of one scene may miss.
+      // The factor by which the estimate of one scene may be wrong.
       EXPECT_GT(100 * one.error_estimate[d], errors[d]) << one.time << ", degree " << d;
       EXPECT_LT(one.error_estimate[d], 1e-5) << one.time << ", degree " << d;
     }

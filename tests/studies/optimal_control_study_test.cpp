@@ -34,7 +34,8 @@ OptimalControlStudy transfer(Discretization form) {
   return study;
 }
 
-// n tan(pi/n) |a| / T, the half of the integral of |u|^2; order 2; from the study's own guess.
+// The cost is n tan(pi/n) |a| / T, half of the integral of |u|^2, of order 2, from the study's own
+// guess.
 TEST(OptimalControlStudy, SolvesTheLoop) {
   for (const Discretization form : {Discretization::stormer, Discretization::midpoint}) {
     const OptimalControlResult result = run_study(loop(form), {});
@@ -79,7 +80,7 @@ TEST(OptimalControlStudy, TwoLoopsAreNoLocalLeast) {
     EXPECT_TRUE(one.conjugate.is_resolved);
     EXPECT_TRUE(one.conjugate.passed_after.empty());
     EXPECT_EQ(one.is_local_least(), std::nullopt);
-    // Less than once around.
+    // The arc is less than a full circle.
     study.end = {0.5, 0, 0.25};
     EXPECT_EQ(run_study(study, {}).is_local_least(), std::optional(true));
   }
@@ -94,7 +95,8 @@ TEST(OptimalControlStudy, ThatOfTheDoubleIntegratorIsALeast) {
   EXPECT_EQ(run_study(study, {}).is_local_least(), std::nullopt);
 }
 
-// Rest to rest over d: 6 d^2 / T^3 in continuous time. The order is that of the form.
+// From rest to rest over d the cost is 6 d^2 / T^3 in continuous time. The order is that of the
+// form.
 TEST(OptimalControlStudy, OrderIsThatOfTheForm) {
   for (const Discretization form : {Discretization::stormer, Discretization::midpoint}) {
     const OptimalControlResult result = run_study(transfer(form), {});
@@ -150,7 +152,7 @@ TEST(OptimalControlStudy, RefusesTooMuchWorkAndStopsWhenAsked) {
   EXPECT_EQ(calls, 5);
 }
 
-// A failure of a refinement is recorded, and the rest is there.
+// A failure of a refinement is recorded, and the other results remain.
 TEST(OptimalControlStudy, FailureOfARefinementIsRecorded) {
   OptimalControlStudy study = loop(Discretization::stormer);
   study.refinements = {1, 64};  // one step cannot enclose an area

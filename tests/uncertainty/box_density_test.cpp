@@ -90,7 +90,7 @@ TEST(SquaredDistance, FindsEntriesAndLeastDistanceOfRandomArcs) {
     EXPECT_EQ(parts.size(), count) << trial;
     for (const double part : parts) EXPECT_NEAR(arc.at(part), square, 1e-9);
     EXPECT_LE(arc.least(1e300), least * (1 + 1e-11));
-    EXPECT_GE(arc.least(1e300), least - 1e-4);  // what lies between two of the points
+    EXPECT_GE(arc.least(1e300), least - 1e-4);  // the extremes between two of the points
     entering += static_cast<int>(count);
   }
   EXPECT_GT(entering, 30);

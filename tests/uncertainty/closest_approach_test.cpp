@@ -53,8 +53,8 @@ EncounterProblem passing_pair(int order, double deviation) {
 }
 
 TEST(ClosestApproach, OfDeviatedSpacecraftIsThatOfTheirFlights) {
-  // At the time that the polynomials tell, flown states must be perpendicular and as far apart as
-  // told; the error of order N falls by 2^(N+1) where deviations are halved.
+  // At the time that the polynomials give, flown states must be perpendicular and as far apart as
+  // predicted. The error of order N falls by 2^(N+1) if deviations are halved.
   for (const int order : {1, 2, 3}) {
     std::array<double, 2> errors{};
     for (const int half : {0, 1}) {

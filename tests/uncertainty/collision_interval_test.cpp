@@ -44,7 +44,7 @@ TEST(CollisionIntervals, SeesEncountersInWindowsOfWholeTurns) {
 // it is late by 3 pi y^2. The time and both bounds on y are by Kepler's equation.
 class LateDeputy {
  public:
-  /// How far from the chief it is at the end of a turn.
+  /// The distance from the chief at the end of a turn.
   static double distance(double y) {
     const double r = std::hypot(1, y), a = 1 / (2 / r - 1), turn = 2 * std::numbers::pi;
     // r.v = y, and e sin E = r.v / sqrt(a), e cos E = 1 - r/a.
@@ -61,7 +61,7 @@ class LateDeputy {
     const double turned = std::atan2(y, 1) - std::atan2(first.y(), first.x());
     return (Eigen::Rotation2Dd(turned) * last - Eigen::Vector2d(1, 0)).norm();
   }
-  /// Where the distance is the radius, on one side of the origin.
+  /// The places at which the distance is the radius, on one side of the origin.
   static double bound(double radius, double side) {
     double low = 0, high = side;
     for (int k = 0; k < 60; ++k) {
@@ -94,7 +94,7 @@ TEST(CollisionIntervals, IntervalsHoldWhatThePolynomialsLeaveOut) {
       below(LateDeputy::bound(radius, 1)) - below(LateDeputy::bound(radius, -1));
   const CollisionProbability result =
       collision_probability(LateDeputy::problem(mean, s, radius), samples(100'000));
-  // Four of its own standard errors do not reach it.
+  // Four of the interval's own standard errors do not reach the value.
   EXPECT_GT(std::abs(result.probability - expected), 4 * result.standard_error);
   EXPECT_LT(result.lower, expected);
   EXPECT_GT(result.upper, expected);

@@ -58,7 +58,7 @@ void expect_published(const std::vector<test::PublishedEncounter>& encounters, l
         << " to " << e.upper;
     expect_agreement(result.probability, result.standard_error, e.probability,
                      (e.upper - e.lower) / (2 * 1.96), name);
-    // A weighted sample tells more than a plain one by far.
+    // A weighted sample gives far more information than a plain one.
     EXPECT_GT(result.equivalent_samples, 20 * static_cast<double>(result.samples)) << name;
     EXPECT_LE(std::abs(result.change_from_lower_order),
               0.01 * result.probability + 4 * result.standard_error_of_change)
@@ -186,7 +186,8 @@ EncounterProblem exact_velocities(double apart, double duration) {
 }
 
 TEST(CollisionProbability, OfExactVelocitiesIsThatOfPlainSamples) {
-  // Positions tell the velocities then, and the speed of entry follows from where a path enters.
+  // Positions determine the velocities then, and the speed of entry follows from the place of the
+  // entry.
   const EncounterProblem problem = exact_velocities(3, 1);
   const CollisionProbability plain =
       collision_probability(problem, settings(50'000, CollisionSampling::plain));

@@ -78,7 +78,7 @@ TEST(Covariance, OfFewerDirectionsHasAFactorOfFewerColumns) {
     }
     for (Eigen::Index i = 0; i < 6; ++i) {
       for (Eigen::Index j = 0; j < 6; ++j) {
-        // What is taken away is below the allowance 2 n 5 10^-p of correlations.
+        // The change is below the allowance 2 n 5 10^-p of correlations.
         EXPECT_NEAR(
             back(i, j), exact(i, j),
             12 * 5 * std::pow(10.0, -std::min(digits, 15)) * std::sqrt(exact(i, i) * exact(j, j)));

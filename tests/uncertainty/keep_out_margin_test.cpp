@@ -102,7 +102,7 @@ double least_flown_ratio(const EncounterProblem& problem, const Eigen::Vector3d&
   return least;
 }
 
-// Kilometres, in ten revolutions: far beyond what is linear.
+// The separation is kilometres over ten revolutions, far beyond the linear range.
 TEST(KeepOutMargin, HoldsOfFlights) {
   constexpr double kilometre = 1.0 / 7000;
   const RelativeOrbit orbit{0.3 * kilometre, 0.4 * kilometre, 1, 5 * kilometre};
@@ -124,7 +124,7 @@ TEST(KeepOutMargin, HoldsOfFlights) {
   for (int k = 0; k < 30; ++k) {
     Eigen::Matrix<double, 12, 1> xi;
     for (double& x : xi) x = normal(engine);
-    // Half of them about the direction that is the worst.
+    // Half of them are about the worst direction.
     xi *= (k % 2 == 0 ? 1.0 : 0.05) / xi.norm();
     if (k % 2 == 1) xi += margin.deviation.normalized();
     xi *= 0.98 * *margin.deviations / xi.norm();

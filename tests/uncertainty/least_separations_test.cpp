@@ -190,7 +190,7 @@ TEST(FlownSeparations, OfTwoOnOneEllipseAreThoseAtApogee) {
     problem.radius = 1e-6;
     const double expected = (on_ellipse(e, pi + delay / 2) - on_ellipse(e, pi - delay / 2)).norm();
     EXPECT_NEAR(flown_separation_of_means(problem) / expected, 1, 1e-9) << e;
-    // A window without an apogee has its least at an end.
+    // In a window without an apogee the least separation is at an end.
     problem.to = 2;
     const double at_end = (on_ellipse(e, 2) - on_ellipse(e, 2 - delay)).norm();
     EXPECT_NEAR(flown_separation_of_means(problem) / at_end, 1, 1e-9) << e;

@@ -10,8 +10,9 @@
 
 namespace hamjet {
 
-/// The polynomial `u` in a space of another order and as many variables: terms above that order are
-/// dropped, terms that `u` lacks are zero. Throws Error(usage) for another number of variables.
+/// The polynomial `u` in a space of another order with the same number of variables: terms above
+/// that order are dropped, and terms that `u` lacks are zero. Throws Error(usage) for another
+/// number of variables.
 template <class T>
 Series<T> in_space(const Series<T>& u, const SpacePointer& space) {
   if (u.space().variables() != space->variables()) {
@@ -23,8 +24,8 @@ Series<T> in_space(const Series<T>& u, const SpacePointer& space) {
   return result;
 }
 
-/// Partial derivative by x_i. Exact up to degree N-1; the slice of degree N is unknown to a
-/// truncated series and is left zero.
+/// Partial derivative with respect to x_i. It is exact up to degree N-1; a truncated series does
+/// not know the slice of degree N, which is left zero.
 template <class T>
 Series<T> derivative(const Series<T>& u, std::size_t i) {
   const SeriesSpace& space = u.space();
@@ -36,8 +37,8 @@ Series<T> derivative(const Series<T>& u, std::size_t i) {
   return result;
 }
 
-/// Integral by x_i from 0: the antiderivative without terms free of x_i. The degree-N slice of `u`
-/// would give degree N+1 and is dropped.
+/// Antiderivative with respect to x_i, without terms that are free of x_i. The slice of degree N of
+/// `u` would give degree N+1 and is dropped.
 template <class T>
 Series<T> integral(const Series<T>& u, std::size_t i) {
   const SeriesSpace& space = u.space();

@@ -55,9 +55,9 @@ void require_composable(const std::vector<Series<T>>& outer, const std::vector<S
 ///   node(a) = c_a + sum over v >= last variable of a of y_v node(a + e_v) ,   outer(y) = node(0) ,
 ///
 /// where y are the inner series. A node at depth k needs degrees up to N - k only, and all
-/// components of the outer map go through it together as the lanes of a pack, so that few
-/// multiply-adds are done, on whole vectors: at order 6 in 6 variables 3 million multiply-adds of
-/// numbers. Terms of the outer map above its highest degree that is not zero cost nothing.
+/// components of the outer map are computed together as the lanes of a pack. At order 6 in 6
+/// variables this takes 3 million multiply-adds of numbers. Degrees above the highest degree of the
+/// outer map that is not zero cost nothing.
 ///
 /// The inner map must have no constant terms; throws Error(usage) otherwise or if the sizes do not
 /// fit. T is double or Extended.
@@ -71,21 +71,22 @@ double composition_multiply_adds(std::size_t variables, int degree, const Series
 
 namespace detail {
 
-/// The composition up to degree `highest` of the result, whose terms above are zero. The maps must
-/// fit as `compose` demands.
+/// The composition up to degree `highest` of the result; terms above this degree are zero. The maps
+/// must fit as `compose` demands.
 template <class T>
 std::vector<Series<T>> compose_up_to(const std::vector<Series<T>>& outer,
                                      const std::vector<Series<T>>& inner, int highest);
 
 }  // namespace detail
 
-/// The inverse of a map of v components in v variables without constant terms:
-/// map(inverse(w)) = w up to the order. With A the linear part and N the rest, the fixed point of
+/// The inverse of a map of v components in v variables without constant terms: map(inverse(w)) = w
+/// up to the order. With A the linear part and N the rest, the fixed point of
 ///
 ///   x = A^-1 (w - N(x))
 ///
-/// gains one degree an iteration, since N begins at degree 2. Throws Error(numerical) if A is
-/// singular. Linear rows of `map` (as in a partial inversion) cost nothing.
+/// is found by iteration: each iteration makes one more degree right, since N begins at degree 2.
+/// Throws Error(numerical) if A is singular. Linear rows of `map` (as in a partial inversion) cost
+/// nothing.
 template <class T>
 std::vector<Series<T>> inverse(const std::vector<Series<T>>& map);
 

@@ -10,15 +10,16 @@
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
 
 // Elementary functions of truncated power series by the recurrences of slice_recurrences.hpp. The
-// constant term must lie where the function is analytic: where it does not (division by a series
-// with constant term 0, logarithm of a negative one) the result holds values that are not finite,
-// as in real arithmetic.
+// constant term must lie where the function is analytic. Elsewhere (division by a series with
+// constant term 0, logarithm of a negative constant term) the result holds values that are not
+// finite, as in real arithmetic.
 
 namespace hamjet {
 
 namespace detail {
 
-/// Completes w = f(u) degree by degree, given f(u_0), f'(u_0), the scale and the sums.
+/// Completes w = f(u) degree by degree, given f(u_0), f'(u_0), and the scale and the sums of
+/// slice_recurrences.hpp.
 template <class T, class Sum>
 Series<T> complete_function(const Series<T>& u, const T& value, const T& derivative, const T& scale,
                             Sum sum) {
@@ -98,7 +99,7 @@ Series<T> log(const Series<T>& u) {
       });
 }
 
-/// Sine and cosine together, for each needs the other.
+/// Sine and cosine together, because the recurrence of each needs the other.
 template <class T>
 std::pair<Series<T>, Series<T>> sin_cos(const Series<T>& u) {
   using std::cos;

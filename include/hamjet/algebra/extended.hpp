@@ -11,7 +11,8 @@ using Extended =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
                                   boost::multiprecision::et_off>;
 
-/// Rounds to another precision. Written once because Boost's conversions are explicit.
+/// Rounds to another precision. This function stands in one place because Boost's conversions are
+/// explicit.
 template <class To, class From>
 To convert(const From& value) {
   return static_cast<To>(value);

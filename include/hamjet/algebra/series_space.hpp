@@ -15,25 +15,25 @@ namespace hamjet {
 /// order, and the schedule by which two of its elements are multiplied.
 ///
 /// Monomials are graded: by degree first, and within a degree lexicographically with the exponent
-/// of x_1 falling first (x^2, xy, y^2). Number of monomials: C(v + N, N), or 1 + v N of uncoupled
-/// variables, whose products with each other vanish.
+/// of x_1 falling first (x^2, xy, y^2). There are C(v + N, N) monomials, or 1 + v N if the
+/// variables are uncoupled, that is if products of different variables vanish.
 ///
-/// A space is an immutable object; several of different order or number of variables live side by
-/// side. Series hold a shared pointer to theirs, and operations on two different spaces throw.
+/// A space is an immutable object; several spaces of different order or number of variables may
+/// exist at once. A series holds a shared pointer to its space, and operations on series of two
+/// different spaces throw.
 class SeriesSpace {
  public:
-  /// `variables` in 1..64, `order` in 0..60. Throws Error(usage) outside, and Error(too_large) for
-  /// more than 5e7 monomials.
+  /// Creates a space of `variables` in 1..64 and `order` in 0..60. Throws Error(usage) for other
+  /// numbers, and Error(too_large) for more than 5e7 monomials.
   static std::shared_ptr<const SeriesSpace> create(std::size_t variables, int order);
   /// The ring in which products of different variables also vanish, R[x_1..x_v] / (x_i x_j for i !=
   /// j, monomials of degree > N): functions along v lines through the origin, side by side. Its
-  /// monomials are 1, x_1..x_v, x_1^2..x_v^2 and so on. Within the same bounds; throws Error(usage)
-  /// outside.
+  /// monomials are 1, x_1..x_v, x_1^2..x_v^2 and so on. Throws as `create`.
   static std::shared_ptr<const SeriesSpace> create_uncoupled(std::size_t variables, int order);
 
   std::size_t variables() const noexcept { return variables_; }
   int order() const noexcept { return order_; }
-  /// Whether there are no products of different variables, as also in one variable alone.
+  /// Whether there are no products of different variables; this is also true of a single variable.
   bool is_uncoupled() const noexcept { return is_uncoupled_; }
   /// Number of monomials of degree 0..N.
   std::size_t size() const noexcept { return offsets_.back(); }
@@ -55,8 +55,8 @@ class SeriesSpace {
   /// vanish, in several uncoupled variables.
   std::span<const std::uint32_t> raised(std::size_t variable) const;
 
-  /// The space of one order more in as many variables, such as an antiderivative's. It is made at
-  /// the first call and kept. Throws what `create` throws.
+  /// The space of one order more in the same number of variables, for example that of an
+  /// antiderivative. It is made at the first call and kept. Throws what `create` throws.
   const std::shared_ptr<const SeriesSpace>& next_order() const;
 
   /// The products that make up the slice of one degree; see ProductSchedule.
@@ -64,7 +64,7 @@ class SeriesSpace {
     return schedules_[static_cast<std::size_t>(degree)];
   }
 
-  /// Multiply-adds of one product of two series, degree by degree with the constant terms.
+  /// Multiply-adds of one product of two series, with constant terms.
   std::size_t product_cost() const;
 
   bool operator==(const SeriesSpace& other) const noexcept {

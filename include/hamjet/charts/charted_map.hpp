@@ -11,14 +11,14 @@ namespace hamjet {
 ///   c + d  ->  Y(jet(X^-1(c + d) - z)) ,
 ///
 /// z the chief's initial state and c its coordinates; the constant terms are the chief's final
-/// coordinates. Both charts being canonical, it is symplectic as far as the jet is. By Horner's
-/// scheme, to the jet's order; `jet` has its six components in all six deviations, the nominal's
-/// end in its constant terms. Throws Error(usage) for another jet.
+/// coordinates. Since both charts are canonical, this map is as symplectic as the jet. It is formed
+/// by Horner's scheme, to the jet's order. `jet` must have six components in all six deviations,
+/// with the nominal's end in the constant terms; Error(usage) is thrown for another jet.
 template <class Real>
 FlowMap<Real> in_charts(const FlowMap<Real>& jet, const CanonicalChart<Real>& start,
                         const SixNumbers<Real>& start_state, const CanonicalChart<Real>& end);
 
-/// The jet in positions and momenta of a map between charts: the inverse of in_charts.
+/// The jet in positions and momenta that belongs to a map between charts: the inverse of in_charts.
 template <class Real>
 FlowMap<Real> out_of_charts(const FlowMap<Real>& map, const CanonicalChart<Real>& start,
                             const SixNumbers<Real>& start_state, const CanonicalChart<Real>& end);

@@ -8,16 +8,16 @@
 
 namespace hamjet {
 
-/// The coordinates in which the polynomials of an orbit's jet are written, at its start or at its
-/// end (`jet.coordinates`). What each is, is said at CanonicalChart and FlowBoxMap.
+/// The coordinates in which the polynomials of an orbit's jet are written, at the start or at the
+/// end (`jet.coordinates`). CanonicalChart and FlowBoxMap define each of them.
 enum class JetCoordinates {
-  cartesian,    ///< positions and momenta themselves
-  spherical,    ///< in the chief's plane
-  cylindrical,  ///< about the field's axis
+  cartesian,    ///< positions and momenta
+  spherical,    ///< spherical coordinates in the chief's plane
+  cylindrical,  ///< cylindrical coordinates about the field's axis
   poincare,     ///< Poincaré's elements
   nodal,        ///< elements with the node as a coordinate
   flow_box,     ///< time and energy, and sections across the flow
-  automatic,    ///< those of the largest reach, as a study of validity finds it
+  automatic,    ///< the coordinates of the largest reach, as a study of validity finds them
 };
 
 /// The names in scenes and results, in the order of the enumeration.
@@ -28,22 +28,23 @@ constexpr std::string_view name_of(JetCoordinates coordinates) {
   return jet_coordinates_names[static_cast<std::size_t>(coordinates)];
 }
 
-/// Those of the deviations that polynomials take and of the final ones that they give
-/// (`jet.coordinates` and `jet.end_coordinates`). Flow boxes have two sections, so that both ends
-/// are in them or none is; and what is measured (`automatic`) are the same at both.
+/// The coordinates of the deviations that polynomials take and of the final ones that they give
+/// (`jet.coordinates` and `jet.end_coordinates`). Flow boxes have two sections, so that either both
+/// ends use them or none does; `automatic` also applies to both ends.
 struct CoordinatesAtEnds {
   JetCoordinates start = JetCoordinates::cartesian;
   JetCoordinates end = JetCoordinates::cartesian;
 
   constexpr CoordinatesAtEnds() = default;
-  /// The same at both ends.
+  /// The same coordinates at both ends.
   constexpr CoordinatesAtEnds(JetCoordinates both) : start(both), end(both) {}
   constexpr CoordinatesAtEnds(JetCoordinates at_start, JetCoordinates at_end)
       : start(at_start), end(at_end) {}
 
   friend constexpr bool operator==(const CoordinatesAtEnds&, const CoordinatesAtEnds&) = default;
 
-  /// Whether both ends are in what one end alone cannot be in, or none is.
+  /// Whether coordinates that need both ends (flow boxes, `automatic`) stand at both ends or at
+  /// none.
   constexpr bool fit_each_other() const {
     const auto is_of_both = [](JetCoordinates one) {
       return one == JetCoordinates::flow_box || one == JetCoordinates::automatic;
@@ -59,7 +60,7 @@ inline std::string name_of(const CoordinatesAtEnds& coordinates) {
   return name;
 }
 
-/// Coordinates, and what they were chosen by.
+/// Coordinates, and the measurements by which they were chosen.
 struct ChosenCoordinates : CoordinatesAtEnds {
   struct Reach {
     JetCoordinates coordinates;
@@ -70,8 +71,8 @@ struct ChosenCoordinates : CoordinatesAtEnds {
   ChosenCoordinates(const CoordinatesAtEnds& named) : CoordinatesAtEnds(named) {}
   ChosenCoordinates(JetCoordinates both) : CoordinatesAtEnds(both) {}
 
-  /// Where they were automatic, how far the polynomials of the highest order reach in each that the
-  /// orbit has; else empty.
+  /// Where the coordinates were automatic, the reach of the polynomials of the highest order in
+  /// each of the coordinates that the orbit has; otherwise empty.
   std::vector<Reach> reaches;
 };
 

@@ -29,14 +29,15 @@ struct DynamicalSystem {
   OperationList hamiltonian;                    ///< 2n inputs, 1 output
   OperationList vector_field;                   ///< 2n inputs, 2n outputs
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
-  /// The most waves that the field has on a circle about the origin of the positions, for example
-  /// the highest degree of a gravity field; 0 where no such wave is known. Adaptive Gauss methods
-  /// take no step that undersamples the shortest.
+  /// The largest number of waves that the field has along a circle about the origin of the
+  /// positions, for example the highest degree of a gravity field; 0 where no such wave is known.
+  /// Adaptive Gauss methods take no step that samples the shortest wave too coarsely.
   int waves_on_a_circle = 0;
-  /// Planes (i, j) of coordinates of z that may be turned together by one angle, z_i to c z_i - s
-  /// z_j and z_j to s z_i + c z_j, without a change of the Hamiltonian, both of a plane positions
-  /// or both momenta; each position's plane has its momenta's. Empty: none is known. Integrators
-  /// leave this rotation out and put it back exactly; with_rotation declares one.
+  /// Planes (i, j) of coordinates of z that may all be turned by one angle, z_i to c z_i - s z_j
+  /// and z_j to s z_i + c z_j, without changing the Hamiltonian. Both coordinates of a plane are
+  /// positions or both are momenta, and to each plane of positions belongs that of their momenta.
+  /// If the list is empty, no such rotation is known. Integrators leave the rotation out and put it
+  /// back exactly; with_rotation declares one.
   std::vector<std::array<std::size_t, 2>> rotated_planes;
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
@@ -47,13 +48,13 @@ struct DynamicalSystem {
 };
 
 /// A system in shared ownership that cannot change: copies are cheap, refer to the same system, and
-/// keep it alive. It is made from a system by value, so that neither a local variable nor a
-/// temporary can be left behind.
+/// keep it alive. It is made from a system by value, so that it cannot outlive a local variable or
+/// temporary that it refers to.
 class SharedSystem {
  public:
   SharedSystem() = default;  ///< refers to no system
-  /// Implicit, so that a system can be given wherever a shared one is asked for; a copy unless it
-  /// is moved from.
+  /// Implicit, so that a system can be given wherever a shared one is expected. The system is
+  /// copied unless it is moved from.
   // NOLINTNEXTLINE(google-explicit-constructor)
   SharedSystem(DynamicalSystem system)
       : system_(std::make_shared<const DynamicalSystem>(std::move(system))) {}
@@ -105,21 +106,21 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
                      }));
 }
 
-/// The system with a rotation declared that leaves its Hamiltonian as it is: of the positions i and
-/// j of each plane and of their momenta by the same angle (an axis of symmetry along q_3 is {{0,
-/// 1}}). Throws Error(usage) for indices that are out of range or stand twice, and if the
-/// Hamiltonian changes, at one of a few random points, by more than the rounding of extended
-/// precision.
+/// Declares a rotation that leaves the Hamiltonian of a system unchanged, and returns the system
+/// with this declaration. The rotation turns the positions i and j of each plane and their momenta
+/// by the same angle; an axis of symmetry along q_3 is {{0, 1}}. Throws Error(usage) for indices
+/// that are out of range or repeated, and if the vector field at one of a few random points changes
+/// under the rotation by more than the rounding of extended precision.
 DynamicalSystem with_rotation(DynamicalSystem system,
                               std::vector<std::array<std::size_t, 2>> planes_of_positions);
 
 /// The degrees of freedom that a scene needs, ascending: those of the variables to expand in, those
-/// in which the nominal is not exactly at rest in the origin, and all that these drive.
+/// whose nominal is not exactly at rest in the origin, and all that are driven by these.
 std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system,
                                                    std::span<const double> nominal,
                                                    std::span<const std::size_t> variables);
 
-/// The system with the `kept` degrees of freedom alone; the subspace where the others vanish must
+/// The system with the `kept` degrees of freedom alone. The subspace where the others vanish must
 /// be invariant.
 DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const std::size_t> kept);
 

@@ -30,15 +30,15 @@ struct SineCosine {
   Extended cosine;
 };
 
-/// Sine and cosine of an angle in degrees (any finite value). The angle is reduced to at most 45
-/// degrees exactly, before the conversion to radians, so that multiples of 90 degrees give exactly
+/// Sine and cosine of an angle in degrees (any finite value). The angle is reduced exactly to at
+/// most 45 degrees before it is converted to radians, so that multiples of 90 degrees give exactly
 /// 0, 1 or -1.
 SineCosine sine_cosine_of_degrees(const Extended& angle_deg);
 
 /// State of a body with the given elements about a centre of gravitational parameter `mu_km3_s2`.
-/// The elements count as exact; the result is good to about 33 digits. Components that vanish for
-/// angles which are multiples of 90 degrees are exactly +0: with i = 0 z and its velocity, with
-/// i = 90 and node 0 y and its velocity.
+/// The elements count as exact; the result is good to about 33 digits. Components that vanish
+/// because angles are multiples of 90 degrees are exactly +0: z and its velocity for i = 0, y and
+/// its velocity for i = 90 and node 0.
 ///
 /// Throws Error(usage) unless a > 0, 0 <= e < 1, mu > 0 and every number is finite.
 ///
@@ -46,9 +46,10 @@ SineCosine sine_cosine_of_degrees(const Extended& angle_deg);
 /// 2.6 (algorithm COE2RV), its rotation written out with the argument of latitude.
 CartesianState state_from_elements(const OsculatingElements& elements, double mu_km3_s2);
 
-/// The elements of a state: the inverse of state_from_elements, with angles from 0 to 360 degrees,
-/// the inclination to 180. In the equatorial plane the node is the x axis, and on a circle the
-/// perigee is the node: the angles from there are defined, those to there are 0.
+/// The elements of a state: the inverse of state_from_elements, with angles from 0 to 360 degrees
+/// and the inclination from 0 to 180. In the equatorial plane the x axis takes the place of the
+/// node, so that the node's angle is 0; on a circle the node takes the place of the perigee, whose
+/// argument is 0.
 ///
 /// Throws Error(usage) unless mu > 0 and every number is finite; Error(numerical) where the orbit
 /// is no ellipse.
@@ -56,9 +57,9 @@ CartesianState state_from_elements(const OsculatingElements& elements, double mu
 /// Source: Vallado, the same section (algorithm RV2COE), angles by two-argument arctangents.
 OsculatingElements elements_from_state(const CartesianState& state, double mu_km3_s2);
 
-/// Eccentric anomaly of a mean one on an ellipse, by Kepler's equation M = E - e sin E, good to
-/// about 33 digits. On the same turn as the mean anomaly; multiples of 180 degrees, and all angles
-/// where e = 0, stay as they are.
+/// Eccentric anomaly E that belongs to a mean anomaly M on an ellipse, by Kepler's equation M = E -
+/// e sin E, good to about 33 digits. E is on the same turn as M. Multiples of 180 degrees, and all
+/// angles where e = 0, stay as they are.
 ///
 /// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
 ///
@@ -67,8 +68,9 @@ OsculatingElements elements_from_state(const CartesianState& state, double mu_km
 Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
                                        const Extended& eccentricity);
 
-/// True anomaly of an eccentric one on an ellipse, good to about 33 digits. On the same turn as the
-/// eccentric anomaly; multiples of 180 degrees, and all angles where e = 0, stay as they are.
+/// True anomaly that belongs to an eccentric anomaly on an ellipse, good to about 33 digits. It is
+/// on the same turn as the eccentric anomaly. Multiples of 180 degrees, and all angles where e = 0,
+/// stay as they are.
 ///
 /// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
 ///
@@ -77,18 +79,19 @@ Extended eccentric_anomaly_of_mean_deg(const Extended& mean_anomaly_deg,
 Extended true_anomaly_of_eccentric_deg(const Extended& eccentric_anomaly_deg,
                                        const Extended& eccentricity);
 
-/// Mean anomaly of a true one on an ellipse, good to about 33 digits, from 0 to 360 degrees.
+/// Mean anomaly that belongs to a true anomaly on an ellipse, good to about 33 digits, from 0 to
+/// 360 degrees.
 ///
 /// Throws Error(usage) unless 0 <= e < 1 and the anomaly is finite.
 Extended mean_anomaly_of_true_deg(const Extended& true_anomaly_deg, const Extended& eccentricity);
 
-/// Semi-major axis of the ellipse with a period, a^3 = mu (T/2 pi)^2.
+/// Semi-major axis of the ellipse with this period, a^3 = mu (T/2 pi)^2.
 ///
 /// Throws Error(usage) unless T > 0, mu > 0 and both are finite.
 Extended semi_major_axis_of_period_km(const Extended& period_s, double mu_km3_s2);
 
-/// Period of the osculating Kepler ellipse in seconds, or nothing where there is none: on a
-/// parabola or a hyperbola, and on a straight line through the centre.
+/// Period of the osculating Kepler ellipse in seconds, or no value on a parabola, a hyperbola, or a
+/// straight line through the centre, which have none.
 ///
 /// Precondition: the position is not the origin, mu > 0.
 ///

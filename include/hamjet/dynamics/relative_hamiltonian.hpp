@@ -13,11 +13,10 @@ template <class Real>
 std::vector<Series<Real>> evaluate_on_series(const OperationList& list,
                                              const std::vector<Series<Real>>& inputs);
 
-/// The relative Hamiltonian H^h about a point z of the nominal: the Taylor terms of degree
-/// 2..N+1 of H in the deviation from z. Its canonical equations are those of the relative motion,
-/// and a flow's jet of order N solves them. Returns a series in 2n variables of order
-/// `flow_order` + 1. Source: Guibout and Bloch, eq. l_hamilton_n (coefficients here include the
-/// factorials).
+/// The relative Hamiltonian H^h about a point z of the nominal: the Taylor terms of degree 2..N+1
+/// of H in the deviation from z. Its canonical equations are those of the relative motion, and a
+/// flow's jet of order N solves them. Returns a series in 2n variables of order `flow_order` + 1.
+/// Source: Guibout and Bloch, eq. l_hamilton_n (the coefficients here include the factorials).
 template <class Real>
 Series<Real> relative_hamiltonian(const DynamicalSystem& system, std::span<const Real> nominal,
                                   int flow_order);

@@ -10,13 +10,14 @@
 #include "hamjet/detail/formats/epoch.hpp"
 
 // Conjunction Data Messages of the Consultative Committee for Space Data Systems, version 1.0, in
-// keyword = value notation (KVN), and on reading, in builds with XML, in that notation too. Source:
-// CCSDS 508.0-B-1, Conjunction Data Message (2013), sections 3 (contents, table 3-4 the
-// covariance), 4 (XML) and 6 (syntax).
+// keyword = value notation (KVN). Builds with XML also read the XML notation. Source: CCSDS
+// 508.0-B-1, Conjunction Data Message (2013), sections 3 (contents, table 3-4 the covariance), 4
+// (XML) and 6 (syntax).
 
 namespace hamjet::io {
 
-/// One of the two objects: its state at the time of closest approach, and the covariance of that.
+/// One of the two objects: its state at the time of closest approach, and the covariance of this
+/// state.
 struct ConjunctionObject {
   std::string object_designator;         ///< OBJECT_DESIGNATOR
   std::string catalog_name;              ///< CATALOG_NAME
@@ -26,44 +27,43 @@ struct ConjunctionObject {
   std::string covariance_method = "CALCULATED";
   std::string maneuverable = "N/A";
   std::string orbit_center = "EARTH";
-  /// REF_FRAME, in capitals: GCRF, EME2000 (J2000 is read as this) or ITRF.
+  /// REF_FRAME, in capitals: GCRF, EME2000 (J2000 is read as EME2000) or ITRF.
   std::string reference_frame;
   std::array<double, 3> position_km = {};
   std::array<double, 3> velocity_km_s = {};
-  /// Of position and velocity along the object's own R, T, N, with inertial velocities; both
-  /// halves: m^2, m^2/s, m^2/s^2.
+  /// Covariance of position and velocity along the object's own R, T, N, with inertial velocities;
+  /// both halves of the matrix, in m^2, m^2/s, m^2/s^2.
   std::array<std::array<double, 6>, 6> covariance = {};
-  std::vector<std::string> comments;  ///< before the state; written, not read
-  std::size_t covariance_line = 0;    ///< of CR_R, where it was read
+  std::vector<std::string> comments;  ///< comments before the state; written, not read
+  std::size_t covariance_line = 0;    ///< line of CR_R, if the message was read
 };
 
-/// Two objects that come near each other.
+/// A message about two objects that come near each other.
 struct ConjunctionDataMessage {
-  std::vector<std::string> comments;  ///< of the header; written, not read
-  Epoch creation_date;                ///< UTC
+  std::vector<std::string> comments;  ///< comments of the header; written, not read
+  Epoch creation_date;                ///< in UTC
   std::string originator;
   std::string message_id;
-  Epoch tca;  ///< UTC
+  Epoch tca;  ///< time of closest approach, in UTC
   double miss_distance_m = 0;
   std::optional<double> relative_speed_m_s;
-  /// The second object's from the first, along the first one's R, T, N.
+  /// Position of the second object relative to the first, along the first one's R, T, N.
   std::optional<std::array<double, 3>> relative_position_m;
   std::optional<std::array<double, 3>> relative_velocity_m_s;
   std::optional<double> collision_probability;
-  std::string collision_probability_method;  ///< with the probability
+  std::string collision_probability_method;  ///< stands with the probability
   std::array<ConjunctionObject, 2> objects;  ///< OBJECT1 and OBJECT2
-  /// What is wrong with optional numbers that are not used and left out, as `name:line: keyword:
-  /// what`.
+  /// Faults of optional numbers that are not used and left out, as `name:line: keyword: what`.
   std::vector<std::string> doubts = {};
 };
 
-/// Reads a CDM. What else the standard has (orbit determination, parameters of drag and radiation
-/// with their rows of the covariance, operators) is checked by its keyword and left out; an empty
-/// optional value is none.
-/// Throws Error(input_output), one line as read_oem, for whatever is not such a message.
+/// Reads a CDM. Other contents of the standard (orbit determination, parameters of drag and
+/// radiation with their rows of the covariance, operators) are checked by their keywords and left
+/// out; an empty optional value counts as absent. Throws Error(input_output), with one line as
+/// read_oem, for a text that is not such a message.
 ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text);
 
-/// A CDM as text; numbers have 16 digits. Texts must be printable ASCII.
+/// Writes a CDM as text, with numbers of 16 digits. Texts must be printable ASCII.
 std::string cdm_text(const ConjunctionDataMessage& message);
 
 }  // namespace hamjet::io

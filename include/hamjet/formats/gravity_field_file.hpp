@@ -13,7 +13,8 @@
 
 namespace hamjet::io {
 
-/// Largest file that is read, in bytes: the largest model there is, of degree 5540, takes half.
+/// Largest file that is read, in bytes; the largest existing model, of degree 5540, takes half of
+/// this.
 inline constexpr std::size_t largest_gravity_field_bytes = std::size_t{1} << 32;
 
 /// The zonal part of a gravity field in the format of the International Centre for Global Earth
@@ -24,28 +25,28 @@ struct GravityField {
   double mu_km3_s2 = 0;
   double radius_km = 0;
   int max_degree = 0;
-  ZonalCoefficients J;         ///< not normalised, J_n = -C_n0; those asked for
-  std::optional<Epoch> epoch;  ///< at which what varies with time was taken; absent if nothing does
-  /// How far the origin lies from the centre of mass along the axis, that centre being at positive
-  /// z: sqrt(3) R C10 with the normalised C(1,0). Absent if that varies with time and there is no
-  /// epoch.
+  ZonalCoefficients J;  ///< coefficients that were asked for, not normalised, J_n = -C_n0
+  /// Epoch at which coefficients that vary with time were taken; absent if none does.
+  std::optional<Epoch> epoch;
+  /// The distance along the axis from the origin to the centre of mass, towards positive z: sqrt(3)
+  /// R C10 with the normalised C(1,0). Absent if C(1,0) varies with time and there is no epoch.
   std::optional<double> origin_offset_km = 0;
 };
 
-/// Which zonal coefficients to take from a file: those of `degrees`, or, if there are none, all
-/// from 2 to `highest`. All are between ZonalCoefficients::lowest and ZonalCoefficients::highest.
+/// The zonal coefficients to take from a file: those of `degrees` or, if that is empty, all from 2
+/// to `highest`. All degrees are between ZonalCoefficients::lowest and ZonalCoefficients::highest.
 struct ZonalChoice {
   int highest = 0;
   std::vector<int> degrees = {};
-  /// When: asked once, and only if a coefficient varies with time.
+  /// Gives the epoch. It is called once, and only if a coefficient varies with time.
   std::function<std::optional<Epoch>()> epoch = {};
 };
 
 /// Reads the text of a gravity field file (ICGEM, formats 1.0 and 2.0); `name` is the file's, for
-/// messages. Coefficients with the norm `fully_normalized`, the default, are multiplied by
-/// sqrt(2n + 1), in extended precision, and every number is rounded once. Exponents may be
-/// Fortran's (D). Coefficients that vary with time (gfct, trnd, dot, asin, acos) are taken at the
-/// epoch of the choice. Tesseral coefficients are passed over: a scene's field has none. Throws
+/// messages. Coefficients with the norm `fully_normalized`, which is the default, are multiplied by
+/// sqrt(2n + 1) in extended precision, and every number is rounded once. Exponents may be Fortran's
+/// (D). Coefficients that vary with time (gfct, trnd, dot, asin, acos) are taken at the epoch of
+/// the choice. Tesseral coefficients are skipped, because the field of a scene has none. Throws
 /// Error(input_output), one line `name:line: ...`, for
 ///  - a header without end_of_head, a gravity constant, a radius or max_degree, a keyword that is
 ///    there twice, a product_type other than gravity_field, another norm or format;
@@ -57,8 +58,8 @@ struct ZonalChoice {
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice);
 
-/// parse_gravity_field from a file. Throws Error(input_output) too if it cannot be read or is no
-/// regular file, Error(too_large) if it is larger than largest_gravity_field_bytes.
+/// parse_gravity_field from a file. It also throws Error(input_output) if the file cannot be read
+/// or is not regular, and Error(too_large) if it is larger than largest_gravity_field_bytes.
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice);
 
 }  // namespace hamjet::io

@@ -22,56 +22,56 @@ struct RunResult;
 
 namespace hamjet::io {
 
-/// What a jet between flow boxes needs beside the nominal's states: where its sections are.
+/// The sections of a jet between flow boxes, which are needed beside the nominal's states.
 struct StoredFlowBox {
   ChartName section = ChartName::nodal;  ///< chart of both sections, which go through the nominal
-  ZonalGravity field;                    ///< canonical
+  ZonalGravity field;                    ///< in canonical units
 
-  /// Whether the radius is one that a field has: that of a centre without harmonics is 0.
+  /// Whether the radius fits the field: without harmonics it is 0, otherwise it is positive.
   bool has_radius_of_field() const {
     return std::isfinite(field.radius) &&
            (field.radius > 0 || (field.radius == 0 && !field.J.any()));
   }
 };
 
-/// What is said of another radius.
+/// The end of a message about a radius that does not fit the field.
 inline constexpr std::string_view radius_of_field_rule =
     "must be positive, or 0 of a field without harmonics";
 
-/// The jet of one run as `hamjet run` has stored it. Indices are those of the model's state (q, p);
+/// The jet of one run as `hamjet run` has stored it. Indices refer to the model's state (q, p);
 /// numbers are canonical.
 struct StoredJet {
-  std::string scene;  ///< its name
-  std::string label;  ///< of the run
+  std::string scene;  ///< name of the scene
+  std::string label;  ///< label of the run
   SystemModel model = SystemModel::zonal_gravity;
-  Precision precision = Precision::double_precision;  ///< of the coefficients as printed
+  Precision precision = Precision::double_precision;  ///< precision of the printed coefficients
   CanonicalUnits units;
   double duration = 0;
   std::vector<double> nominal_initial;  ///< all 2n components of the model
   std::vector<double> nominal_final;
-  /// Components that were computed, ascending; the others are zero throughout, whatever the
-  /// deviation in the variables.
+  /// Components that were computed, ascending; all others vanish, whatever the deviations of the
+  /// variables are.
   std::vector<std::size_t> components;
-  std::vector<std::size_t> variables;  ///< expanded in, ascending
-  /// Date and frame of the nominal, where the scene names them: epoch, time system, reference frame
-  /// with its epoch, and centre; the rest is not stored.
+  std::vector<std::size_t> variables;  ///< variables in which the jet is expanded, ascending
+  /// Epoch, time system, reference frame with its epoch, and centre of the nominal, where the scene
+  /// names them; other settings of the table are not stored.
   std::optional<EphemerisSettings> ephemeris = {};
-  /// Errors of the coefficients by degree, relative to the largest of the degree, where the run has
-  /// measured or estimated them (see relative_error_by_degree) and the format keeps them; else
-  /// empty. Of other coordinates than Cartesian, flow boxes apart, they are those of the run's jet in
-  /// positions and momenta.
+  /// Errors of the coefficients by degree, relative to the largest coefficient of the degree, where
+  /// the run has measured or estimated them (see relative_error_by_degree) and the format keeps
+  /// them; otherwise empty. For coordinates other than Cartesian and flow boxes, they are the
+  /// errors of the run's jet in positions and momenta.
   std::vector<double> error_by_degree = {};
-  /// In which the deviations are, at the start, and the final ones. In other coordinates than
-  /// Cartesian the constant terms are the chief's, in the chart of the end; nominal states are
-  /// positions and momenta all the same.
+  /// The coordinates of the deviations at the start and of the final ones. If they are not
+  /// Cartesian, the constant terms are the chief's coordinates in the chart of the end; the nominal
+  /// states are positions and momenta in any case.
   CoordinatesAtEnds coordinates = {};
-  /// Of flow boxes, and of these alone. Then the series are FlowBoxMap's, `time` before
-  /// `coordinates`, in the variables of the sections, which are fewer than the state's.
+  /// Present for flow boxes only. The series are then those of FlowBoxMap, `time` before
+  /// `coordinates`, in the variables of the sections, which are fewer than those of the state.
   std::optional<StoredFlowBox> flow_box = {};
-  /// What its reader has to tell of the file, a line each.
+  /// Notes of the reader about the file, one line each.
   std::vector<std::string> notes = {};
-  /// One series a component. The printed digits bring back the numbers of the run bit by bit; in
-  /// double precision they are doubles.
+  /// One series for each component. In extended precision the printed digits bring back the numbers
+  /// of the run bit by bit; in double precision the numbers are doubles.
   FlowJet<Extended> jet;
 
   int order() const { return jet.at(0).order(); }
@@ -83,55 +83,58 @@ struct StoredJet {
   }
 };
 
-/// Reads `summary.json` and `<label>/jet.csv` of a results directory: the run with this label, or
-/// else the first that has a result. Throws Error(input_output), one line with the file and the
-/// line or key, if anything is missing, changed since, of another version or of a failed run;
-/// Error(usage) if no run has this label.
+/// Reads `summary.json` and `<label>/jet.csv` of a results directory: the run with this label or,
+/// without a label, the first run that has a result. Throws Error(input_output), with one line that
+/// names the file and the line or key, if a file is missing, was changed since, or has another
+/// version, or if the run failed. Throws Error(usage) if no run has this label.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label = {});
 
-/// The times of a run's jets that are wanted, in seconds.
+/// The wanted times of a run's jets, in seconds.
 struct WantedTimes {
   std::vector<double> seconds = {};
-  bool all = false;  ///< all times that the run has, the duration last
+  bool all = false;  ///< all times of the run, the duration last
 };
 
-/// The jets of a results directory's run at the wanted times, in their order: those that the
-/// scene's `jet.times_...` asked for, and that of the duration. A time is a stored one's to 1e-9 of
-/// it. Throws as read_stored_jet, and Error(usage) for a time that the run has no jet at.
+/// The jets of a run at the wanted times, in their order, from a results directory. A run has jets
+/// at the times that the scene's `jet.times_...` asked for, and at the duration. A wanted time
+/// matches a stored one if both agree to 1e-9. Throws as read_stored_jet, and Error(usage) for a
+/// time at which the run has no jet.
 std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
                                         const std::optional<std::string>& label,
                                         const WantedTimes& wanted);
 
-/// The polynomials that a run wrote in its scene's coordinates, other than Cartesian ones, beside
-/// its jet; nothing if it has none, and of a path that is no directory. Throws as read_stored_jet.
+/// The polynomials that a run wrote, beside its jet, in the coordinates of its scene, if these are
+/// not Cartesian. No value if there are none, or if the path is not a directory. Throws as
+/// read_stored_jet.
 std::optional<StoredJet> read_stored_polynomials(const std::filesystem::path& directory,
                                                  const std::optional<std::string>& label = {});
 
-/// Its series as a map between flow boxes, in double precision. Throws Error(numerical) where its
-/// orbit has not such sections. Precondition: it has `flow_box`.
+/// The series of a stored jet as a map between flow boxes, in double precision. Throws
+/// Error(numerical) where the orbit does not have such sections. Precondition: the jet has
+/// `flow_box`.
 FlowBoxMap<double> flow_box_map(const StoredJet& stored);
 
-/// Throws Error(usage) unless a stored jet is in positions and momenta, for those who can do
-/// nothing with another; `name` is the file's.
+/// Throws Error(usage) unless a stored jet is in positions and momenta; for callers that cannot use
+/// other coordinates. `name` is the file's name.
 void require_positions_and_momenta(const StoredJet& stored, const std::string& name);
 
-/// Whether a stored jet is of this time, to 1e-9 of it.
+/// Whether a stored jet is at this time, to a relative difference of 1e-9.
 bool is_at(const StoredJet& stored, double time_s);
 
-/// All that is stored of a run's jet but the coefficients.
+/// All that is stored of a run's jet except the coefficients.
 StoredJet describe_jet(const PropagationResult& result, const RunResult& run);
 
-/// What evaluating a stored jet in double precision loses up to a degree, see
-/// hamjet::evaluation_error; its largest coefficients are those that are the largest whatever the
-/// unit of length. `map` is the jet in double precision without its constant terms.
+/// The error of evaluating a stored jet in double precision up to a degree, see
+/// hamjet::evaluation_error. The largest coefficients are chosen independently of the unit of
+/// length. `map` is the jet in double precision without its constant terms.
 std::vector<Series<double>> evaluation_error(const StoredJet& stored,
                                              const std::vector<Series<double>>& map, int degree);
 
 /// The bytes of a file; throws Error(input_output) if it cannot be read.
 using FileReader = std::function<std::string(const std::filesystem::path& file)>;
 
-/// read_stored_jet with files that `read` brings, for example from memory.
+/// read_stored_jet with files that `read` supplies, for example from memory.
 StoredJet read_stored_jet(const std::filesystem::path& directory,
                           const std::optional<std::string>& label, const FileReader& read);
 

@@ -21,74 +21,78 @@ namespace hamjet {
 template <class Real>
 using FlowJet = std::vector<Series<Real>>;
 
-/// What every integrator is asked for: the Taylor expansion of the flow over a duration about one
-/// nominal trajectory. Real is double or Extended; all numbers are in the system's own units. It
-/// owns or shares all that it names, so that it may be kept, copied and handed to threads.
+/// The problem that every integrator solves: the Taylor expansion of the flow over a duration about
+/// one nominal trajectory. Real is double or Extended; all numbers are in the system's own units. A
+/// problem owns or shares all of its parts, so that it may be kept, copied and handed to threads.
 template <class Real>
 struct FlowProblem {
   SharedSystem system;
-  SpacePointer space;                  ///< as many variables as are expanded in
+  SpacePointer space;                  ///< one variable for each variable of the expansion
   std::vector<std::size_t> variables;  ///< index in z = (q, p) of each variable of the space
   std::vector<Real> initial_state;     ///< 2n numbers
-  Real duration = 0;                   ///< negative: backwards; zero: the start, exactly
-  /// The jet that an earlier integration reached, to go on from; its constant terms are
-  /// `initial_state`. None: the identity.
+  Real duration = 0;                   ///< negative for backwards; zero gives the start exactly
+  /// The jet that an earlier integration reached and from which this one continues; its constant
+  /// terms are `initial_state`. Without a value the integration starts from the identity.
   std::optional<FlowJet<Real>> initial_jet = {};
-  FlowSymmetry symmetry = FlowSymmetry::rotation;  ///< to be left out of the integration
-  /// The observer of steps looks at constant terms alone, so that it may be given a jet in other
+  FlowSymmetry symmetry = FlowSymmetry::rotation;  ///< symmetry to be left out of the integration
+  /// Whether the observer of steps reads constant terms alone. It may then be given a jet in other
   /// variables, before a symmetry that was left out is put back.
   bool observes_constant_terms = false;
 };
 
-/// The flow's jet along a straight line of initial deviations, s times `direction`, which has an
-/// entry for each variable of the problem: a series in s alone.
+/// The flow's jet along a straight line of initial deviations, s times `direction`, as a series in
+/// s alone. The direction has an entry for each variable of the problem.
 template <class Real>
 struct JetAlongLine {
   std::vector<Real> direction;
   FlowJet<Real> jet;
 };
 
-/// More steps than this are refused with Error(too_large): they would take hours, and their
-/// round-off alone would leave little of a result.
+/// Integrations of more steps are refused with Error(too_large): they would take hours, and
+/// round-off alone would leave little of the result.
 inline constexpr double largest_step_count = 1e8;
 
-/// What an integration took; every integration fills it anew. Evaluations are counted on series:
-/// one stage of one step.
+/// The work and the findings of an integration; every integration fills them anew. Evaluations are
+/// counted on series: one stage of one step.
 struct IntegrationStatistics {
   long steps = 0;
   long rejected_steps = 0;
-  /// Evaluations on series. Rejected steps cost a Gauss method none: it tries steps on the nominal
-  /// first.
+  /// Evaluations on series. In a Gauss method rejected steps need none, because steps are tried on
+  /// the nominal first.
   long vector_field_evaluations = 0;
-  long nominal_evaluations = 0;  ///< on plain numbers, of all stages at once for implicit methods
-  double wall_seconds = 0;       ///< of the integration, without what its observer takes
-  /// Of choosing the steps of an adaptive Gauss method (`step_tolerance`); in wall_seconds.
+  long nominal_evaluations =
+      0;  ///< evaluations on plain numbers; for implicit methods, of all stages at once
+  double wall_seconds = 0;  ///< time of the integration, without that of its observer
+  /// Time of choosing the steps of an adaptive Gauss method (`step_tolerance`); it is part of
+  /// wall_seconds.
   double choice_seconds = 0;
-  SeriesWork series_work;  ///< products of series, of all evaluations and stages
-  FlowSymmetry left_out = FlowSymmetry::none;  ///< of the integration, and put back
-  /// Most iterations of Newton's method that one solution on the nominal took; 0 where fixed-point
-  /// iteration contracted in every step, for explicit methods, and for CVODE, which has an
-  /// iteration of its own.
+  SeriesWork series_work;  ///< products of series in all evaluations and stages
+  FlowSymmetry left_out =
+      FlowSymmetry::none;  ///< symmetry that was left out of the integration and put back
+  /// Largest number of iterations that Newton's method needed for one solution on the nominal. It
+  /// is 0 if fixed-point iteration contracted in every step, for explicit methods, and for CVODE,
+  /// which has an iteration of its own.
   int most_newton_iterations = 0;
   /// The largest estimate of the relative local error of an accepted step, in the sense in which
-  /// the method compares it with its tolerance; none where the method makes none.
+  /// the method compares it with its tolerance; no value if the method makes no estimate.
   std::optional<double> largest_step_error;
-  double step_error_seconds = 0;  ///< taken by largest_step_error alone; not in wall_seconds
-  /// Periods of the linearised motion in the duration, for Gauss methods: the integral of the
-  /// largest frequency along the nominal, divided by 2 pi. On a circular orbit 1.2 to 1.4 times the
-  /// revolutions.
+  double step_error_seconds =
+      0;  ///< time of computing largest_step_error; not part of wall_seconds
+  /// For Gauss methods, the number of periods of the linearised motion in the duration: the
+  /// integral of the largest frequency along the nominal, divided by 2 pi. On a circular orbit it
+  /// is 1.2 to 1.4 times the number of revolutions.
   double periods = 0;
   /// The local tolerance of the steps of an adaptive Gauss method; see GaussSettings::tolerance.
   std::optional<double> step_tolerance;
-  /// By degree, the relative error that rounding leaves however short the steps of an adaptive
-  /// Gauss method are; empty where every degree meets the tolerance.
+  /// By degree, the relative error that rounding leaves even with very short steps of an adaptive
+  /// Gauss method; empty if every degree meets the tolerance.
   std::vector<double> rounding_by_degree;
-  /// By degree, the relative error along two lines where none of the step sizes that an adaptive
-  /// Gauss method tried kept all degrees to the tolerance; empty otherwise.
+  /// By degree, the relative error along two lines if none of the step sizes that an adaptive Gauss
+  /// method tried met the tolerance in all degrees; otherwise empty.
   std::vector<double> unmet_by_degree;
-  /// The flow along lines of deviations by other stages and finer steps, where an adaptive Gauss
-  /// method has made sure of its tolerance with them: estimate_error needs no second integration.
-  /// They are in the arithmetic of the integration.
+  /// The flow along lines of deviations with other stages and finer steps, with which an adaptive
+  /// Gauss method has checked its tolerance. With them estimate_error needs no second integration.
+  /// They have the arithmetic of the integration.
   std::variant<std::vector<JetAlongLine<double>>, std::vector<JetAlongLine<Extended>>> finer_lines;
 
   void record_step_error(double estimate) {
@@ -96,11 +100,11 @@ struct IntegrationStatistics {
   }
 };
 
-/// Called after every accepted step with the time and the jet so far. May throw to stop.
+/// Called after every accepted step with the time and the present jet. It may throw to stop.
 template <class Real>
 using StepObserver = std::function<void(const Real& time, const FlowJet<Real>& jet)>;
 
-/// The jet at time zero: where the problem gives none, the nominal's initial state plus the
+/// The jet at time zero: that of the problem, or without one the nominal's initial state plus the
 /// deviations themselves.
 template <class Real>
 FlowJet<Real> starting_jet(const FlowProblem<Real>& problem) {
@@ -115,7 +119,7 @@ FlowJet<Real> starting_jet(const FlowProblem<Real>& problem) {
   return jet;
 }
 
-/// The highest degree whose slices are not zero throughout: a linear system has none above 1.
+/// The highest degree that needs to be computed; for a linear system the degrees above 1 vanish.
 inline int working_order(const DynamicalSystem& system, int order) {
   return system.vector_field.is_linear_system() ? std::min(order, 1) : order;
 }

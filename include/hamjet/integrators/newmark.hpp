@@ -4,10 +4,11 @@
 
 namespace hamjet {
 
-/// How Newmark's method integrates; its gamma is 1/2.
+/// Settings of Newmark's method; its gamma is 1/2.
 struct NewmarkSettings {
   double beta = 0.25;  ///< 0 to 1/2; 0 is velocity Verlet, 1/4 the average acceleration method
-  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
+  /// Longest step, in the system's unit of time, positive; the duration is divided into equal
+  /// steps.
   double step = 0;
 };
 
@@ -16,13 +17,13 @@ struct NewmarkSettings {
 ///   q_(k+1) = q_k + h v_k + h^2 ((1/2 - beta) a_k + beta a_(k+1)),
 ///   v_(k+1) = v_k + (h/2) (a_k + a_(k+1)) .
 ///
-/// The method has order 2, is symmetric, and implicit for beta > 0; the jet is exactly the method
-/// acting on series. It needs a system with a second-order form q' = M^-1 p, p' = F(q)
+/// The method has order 2, is symmetric, and implicit for beta > 0; it is applied exactly to
+/// series. It needs a system with a second-order form q' = M^-1 p, p' = F(q)
 /// (DynamicalSystem::second_order).
 ///
 /// For beta > 0 the map is *not* symplectic in (q, M v), so that its generating functions do not
 /// exist there: dp ^ dq^d is preserved, where q^d = q - beta h^2 a(q) and p = M v. In these
-/// variables the method is leapfrog, and so it is computed:
+/// variables the method is leapfrog, and it is computed in this form:
 ///
 ///   q^d_(k+1) = q^d_k + h M^-1 p_(k+1/2),   p_(k+3/2) = p_(k+1/2) + h F(q_(k+1)) ,
 ///

@@ -5,32 +5,34 @@
 namespace hamjet {
 
 // Explicit symplectic methods for a system with a second-order form q' = M^-1 p, p' = F(q)
-// (DynamicalSystem::second_order). Each is exactly the method acting on series: the result is the
-// jet of the numerical map, which is symplectic, so its generating functions exist to round-off
-// whatever the step (but exactness is not accuracy).
+// (DynamicalSystem::second_order). Each method is applied exactly to series. The result is the jet
+// of the numerical map, which is symplectic, so that its generating functions exist to round-off
+// for any step (but exactness is not accuracy).
 
-/// How Störmer's rule integrates.
+/// Settings of Störmer's rule.
 struct StormerSettings {
-  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
+  /// Longest step, in the system's unit of time, positive; the duration is divided into equal
+  /// steps.
   double step = 0;
 };
 
-/// How velocity Verlet integrates.
+/// Settings of velocity Verlet.
 struct VelocityVerletSettings {
-  /// Longest step, in the system's unit of time, positive; the span is cut into equal steps.
+  /// Longest step, in the system's unit of time, positive; the duration is divided into equal
+  /// steps.
   double step = 0;
 };
 
-/// Integrates the flow's jet with Störmer's rule as the paper writes it in Hamiltonian form, with
-/// p_k read at t_k:
+/// Integrates the flow's jet with Störmer's rule in the paper's Hamiltonian form, where p_k is
+/// taken at t_k:
 ///
 ///   p_(k+1) = p_k + h F(q_k),   q_(k+1) = q_k + h M^-1 p_(k+1) .
 ///
-/// That is the symplectic Euler method: order 1, not symmetric, so that a run forwards and one
-/// backwards differ. It takes one evaluation on series a step.
+/// This is the symplectic Euler method. It has order 1 and is not symmetric, so that a run forwards
+/// followed by one backwards does not return. It takes one evaluation on series per step.
 ///
 /// The time runs to `duration` exactly, backwards too; duration 0 gives the identity exactly. The
-/// update is summed with compensation. A nominal that steps over a collision is not noticed.
+/// update is summed with compensation. If the nominal steps over a collision, this is not noticed.
 ///
 /// Source: Guibout and Bloch, eq. `stormer_h1`, corrected; Hairer, Lubich and Wanner, Geometric
 /// Numerical Integration, section I.1.2. Throws Error(usage) for a step that is not positive and
@@ -45,9 +47,9 @@ FlowJet<Real> integrate_stormer(const FlowProblem<Real>& problem, const StormerS
 ///
 ///   q_(k+1) = q_k + h M^-1 p_k + (h^2/2) a_k,   p_(k+1) = p_k + (h/2) (F(q_k) + F(q_(k+1))) .
 ///
-/// It has order 2, is symmetric and takes one evaluation on series a step, and one at the start:
-/// the force at the end of a step is that at the start of the next. Limits, errors and summation
-/// are those of integrate_stormer.
+/// The method has order 2, is symmetric and takes one evaluation on series per step, plus one at
+/// the start, because the force at the end of a step is that at the start of the next. Limits,
+/// errors and summation are those of integrate_stormer.
 ///
 /// Source: Guibout and Bloch, eq. `legendre_vv`, corrected; Hairer, Lubich and Wanner, section
 /// I.1.4.

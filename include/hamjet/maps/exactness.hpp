@@ -17,7 +17,7 @@ struct ExactnessResidual {
   int degree = 0;
   double absolute = 0;
   double scaled = 0;  ///< divided by the largest coefficient of d sigma_i / d w_j of this degree
-  std::optional<double> at_formation_scale;  ///< residual with each w_i in units of its scale
+  std::optional<double> at_formation_scale;  ///< the residual if each w_i is in units of its scale
 };
 
 /// Residuals of the degrees 0..N-1. `scales` holds a typical deviation for each of the 2n variables

@@ -17,10 +17,10 @@ namespace hamjet {
 template <class T>
 struct PartialInversion {
   GeneratingFunctionKind kind;
-  double condition = 0;  ///< of the matrix inverted, in the 2-norm
-  /// Factor by which relative errors of the map's linear part may grow in the inverse's: the larger
+  double condition = 0;  ///< condition number of the inverted matrix in the 2-norm
+  /// Factor by which relative errors of the map's linear part may grow in the inverse: the larger
   /// of the condition and the ratio of the whole linear part's norm to the smallest singular value
-  /// of the matrix inverted.
+  /// of the inverted matrix.
   double amplification = 0;
   std::vector<Series<T>> remaining_final;    ///< n series in w
   std::vector<Series<T>> remaining_initial;  ///< n series in w
@@ -28,8 +28,8 @@ struct PartialInversion {
 
 /// The linear part that a kind inverts: d(chosen final) / d(remaining initial), n x n. For F1 it is
 /// dq/dp0, for F2 dq/dq0, for F3 dp/dp0, for F4 dp/dq0. Momenta are in units of
-/// 2^momentum_exponent: a mixed kind has rows of positions and of momenta, and its condition number
-/// follows the units.
+/// 2^momentum_exponent, because a mixed kind has rows of positions and rows of momenta, and its
+/// condition number depends on their units.
 template <class T>
 Matrix<T> inverted_block(const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
                          int momentum_exponent = 0);
@@ -40,34 +40,35 @@ template <class T>
 double condition_number(const Matrix<T>& matrix);
 
 /// Beyond this condition number a linear part that is known to a relative precision counts as
-/// singular: with rounded inputs it never is exactly (at a full period of Kepler's problem F1 has a
-/// condition near 3e17 in double precision).
+/// singular. A matrix of rounded numbers is never exactly singular: at a full period of Kepler's
+/// problem, F1 has a condition near 3e17 in double precision.
 constexpr double largest_condition(double precision) { return 1 / (100 * precision); }
 
 /// Inverts a jet of 2n components in all 2n initial deviations; its constant terms are ignored.
 /// `precision` is the rounding of the jet's coefficients, which may be coarser than that of T.
 /// Throws Error(numerical), naming kind and smallest singular value, where the condition exceeds
-/// largest_condition(precision), or where the block vanishes beside the whole linear part as much
-/// (one degree of freedom has no other condition): the generating function does not exist there to
-/// any useful accuracy. These are judged with momenta in units of 2^momentum_exponent; the series
-/// are in the jet's own units. Throws Error(usage) if the jet is not 2n components in 2n variables.
+/// largest_condition(precision), or where the inverted block is smaller than the whole linear part
+/// by that factor (with one degree of freedom the condition is always 1). The generating function
+/// does not exist there to any useful accuracy. Both are judged with momenta in units of
+/// 2^momentum_exponent; the series are in the jet's own units. Throws Error(usage) if the jet is
+/// not 2n components in 2n variables.
 template <class T>
 PartialInversion<T> invert_partially(
     const std::vector<Series<T>>& jet, const GeneratingFunctionKind& kind,
     double precision = static_cast<double>(std::numeric_limits<T>::epsilon()),
     int momentum_exponent = 0);
 
-/// The kind whose linear part has the smallest condition number; among equal ones (to a part in a
-/// million), the one with the largest singular values, for with one degree of freedom all are 1.
-/// `momentum_exponent` as in inverted_block.
+/// The kind whose linear part has the smallest condition number. Among kinds of equal condition (to
+/// a part in a million) it is the one with the largest singular values, because with one degree of
+/// freedom all conditions are 1. `momentum_exponent` is as in inverted_block.
 template <class T>
 GeneratingFunctionKind best_conditioned_kind(const std::vector<Series<T>>& jet,
                                              int momentum_exponent = 0);
 
-/// The one-form sigma with dS = sum of sigma_i dw_i for a generating function S: n entries for the
-/// final pairs, n for the initial pairs. With F1, S = F1(q, q0): sigma = (p, -p0). In general, for
-/// a final pair sigma = p_i if w = q_i and -q_i if w = p_i; for an initial pair -p0_i if w = q0_i
-/// and +q0_i if w = p0_i.
+/// The one-form sigma with dS = sum of sigma_i dw_i for a generating function S: with n entries for
+/// the final pairs and then n for the initial pairs. With F1, S = F1(q, q0): sigma = (p, -p0). In
+/// general, for a final pair sigma = p_i if w = q_i and -q_i if w = p_i; for an initial pair -p0_i
+/// if w = q0_i and +q0_i if w = p0_i.
 template <class T>
 std::vector<Series<T>> one_form(const PartialInversion<T>& inversion);
 
@@ -76,7 +77,7 @@ std::vector<Series<T>> one_form(const PartialInversion<T>& inversion);
 ///
 ///   S_(d+1) = (1/(d+1)) sum over i of w_i sigma_(i,d) .
 ///
-/// It generates the map exactly only if the one-form is closed; see exactness_residual.
+/// S generates the map exactly only if the one-form is closed; see exactness_residual.
 template <class T>
 Series<T> generating_function(const std::vector<Series<T>>& one_form);
 

@@ -9,8 +9,8 @@
 
 namespace hamjet {
 
-/// The momenta, as deviations from the nominal, with which a deviation goes from one position to
-/// another.
+/// The initial and final momenta of the path from one position to another, all as deviations from
+/// the nominal.
 struct BoundaryMomenta {
   std::vector<double> initial;  ///< n numbers
   std::vector<double> final;    ///< n numbers
@@ -31,15 +31,16 @@ class PositionBoundaryValues {
   /// The inversion must outlive this object.
   explicit PositionBoundaryValues(const PartialInversion<double>& inversion);
 
-  /// The momenta for two positions, deviations of n numbers each, by the polynomials up to
-  /// `degree`. Throws Error(usage) for sizes or a degree that do not fit, Error(numerical) if
-  /// Newton's iteration does not come to rest: the positions are farther apart than the polynomials
-  /// reach, or cannot be commanded at this time.
+  /// The momenta for two positions, each a deviation of n numbers, by the polynomials up to
+  /// `degree`. Throws Error(usage) for sizes or a degree that do not fit. Throws Error(numerical)
+  /// if Newton's iteration does not come to rest: then the positions are farther apart than the
+  /// polynomials reach, or cannot be commanded at this time.
   BoundaryMomenta solve(std::span<const double> initial_position,
                         std::span<const double> final_position, int degree);
 
  private:
-  /// An unknown momentum among the variables w, and the series that must give its position.
+  /// A momentum that is unknown among the variables w, and the series that gives the position of
+  /// its pair.
   struct Unknown {
     std::size_t variable;
     const Series<double>* position;

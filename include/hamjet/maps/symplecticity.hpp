@@ -13,16 +13,16 @@ struct SymplecticityDefect {
   int degree = 0;
   double absolute = 0;
   /// The absolute defect divided by the largest sum of absolute values of the terms of a
-  /// coefficient of this degree; not coefficient by coefficient, for where symmetry makes
-  /// coefficients vanish both would be round-off alone.
+  /// coefficient of this degree. The quotient is not formed for each coefficient by itself: where
+  /// symmetry makes a coefficient vanish, it would be a ratio of two round-off errors.
   double scaled = 0;
 };
 
-/// Defects of the degrees 0..N-1 of a jet of 2n components in all 2n initial deviations. It needs
-/// no inversion and so amplifies no round-off: scaled, a symplectic method stays at the rounding of
-/// the jet's numbers at every degree. For numbers of double precision the brackets are formed in
-/// extended precision, so that what is seen is the jet's own rounding. Throws Error(usage) for
-/// other sizes.
+/// Defects of the degrees 0..N-1 of a jet of 2n components in all 2n initial deviations. No
+/// inversion is needed, so that no round-off is amplified: the scaled defect of a symplectic method
+/// stays at the rounding of the jet's numbers at every degree. For a jet in double precision the
+/// brackets are formed in extended precision, so that the defect shows the jet's own rounding
+/// alone. Throws Error(usage) for other sizes.
 template <class T>
 std::vector<SymplecticityDefect> symplecticity_by_degree(const std::vector<Series<T>>& jet);
 

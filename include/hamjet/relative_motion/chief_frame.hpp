@@ -12,7 +12,7 @@ namespace hamjet {
 ///
 ///   R = r / |r|,   N = r x v / |r x v|,   T = N x R
 ///
-/// of the chief's state: radial, transverse (along the motion, and the velocity itself only on a
+/// of the chief's state: radial, transverse (along the motion; parallel to the velocity only on a
 /// circular orbit) and normal.
 enum class RelativeFrame {
   rtn_rotating,  ///< along RTN; velocities are derivatives seen from the rotating axes
@@ -41,7 +41,7 @@ struct MetricUnits {
 ///
 ///   omega = |r x v| / r^2  about N ;
 ///
-/// the slow turn of the orbit's plane by perturbing forces is no part of it. With rho and rho' the
+/// omega leaves out the slow turn of the orbit's plane by perturbing forces. With rho and rho' the
 /// position and velocity in rotating axes, the inertial velocity along them is rho' + omega N x
 /// rho. Source: Schaub and Junkins, Analytical Mechanics of Space Systems, chapter "Spacecraft
 /// Formation Flying".

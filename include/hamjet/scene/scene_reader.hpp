@@ -10,25 +10,27 @@
 namespace hamjet::io {
 
 /// One `--set key=value`. The key is a dotted path; an element of an array is named by its index
-/// from 0 or, if it is a table with a label, by that: `jet.order`, `integrator.0.tolerance`,
-/// `integrator.gauss8.tolerance`. Missing tables on the way are added. The value is TOML (`3`,
-/// `[1, 2]`, `{}`); what is not valid TOML is taken as a string. The value `null`, which TOML
+/// from 0 or, if it is a table with a label, by its label: `jet.order`, `integrator.0.tolerance`,
+/// `integrator.gauss8.tolerance`. Missing tables on the way are added. The value is TOML (`3`, `[1,
+/// 2]`, `{}`); a value that is not valid TOML is taken as a string. The value `null`, which TOML
 /// does not know, removes the key or the element, which must be there; an empty value is an error.
-/// To go from one of several forms of a table to another, remove the keys of the one
+/// To change from one of several forms of a table to another, remove the keys of the old form
 /// (`jet.duration_canonical=null`) or give the whole table: `nominal={a_km=7000, ...}`.
 struct Override {
   std::string key;
   std::string value;
 };
 
-/// The canonical units that the numbers of a scene about an orbit are read in.
+/// The canonical units in which the numbers of a scene about an orbit are read.
 enum class SceneUnits {
-  told,   ///< those of its table `[units]`: the coefficients of a run are in them, to every digit
-  chiefs  ///< the chief's own, whatever the table says: nothing that is computed depends on it
+  told,   ///< units of the scene's table `[units]`: the coefficients of a run are in them, to every
+          ///< digit
+  chiefs  ///< the chief's own units, whatever the table says: no result of a computation depends on
+          ///< the table
 };
 
-/// Reads a scene file and applies the overrides in their order, after which the same rules hold as
-/// if the file had been written so. Throws
+/// Reads a scene file and applies the overrides in their order. After this the same rules hold as
+/// if the file had been written in this way. Throws
 ///  - Error(input_output) with the path and the reason if the file cannot be read, or is a
 ///    directory, a pipe or a device; and for a gravity file that the scene names, relative to its
 ///    own folder (see gravity_field_file.hpp);
@@ -49,9 +51,9 @@ enum class SceneUnits {
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                  SceneUnits units = SceneUnits::told);
 
-/// read_scene from text; `file_name` is used in messages and for Scene::name. Every number becomes
-/// the nearest binary64; the conversion to canonical units is done in extended precision and
-/// rounded once.
+/// read_scene from a text. `file_name` is used in messages and for Scene::name. Every number
+/// becomes the nearest binary64; the conversion to canonical units is done in extended precision
+/// and rounded once.
 Scene parse_scene(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides = {}, SceneUnits units = SceneUnits::told);
 

@@ -11,7 +11,8 @@ namespace hamjet {
 
 /// The cheapest transfer of one deputy to one slot.
 struct AssignmentCost {
-  std::optional<std::size_t> time;  ///< index into the transfer times; absent: no answer at any
+  /// Index into the transfer times; absent if no time has an answer.
+  std::optional<std::size_t> time;
   double total_change_m_s = 0;
 };
 
@@ -19,14 +20,14 @@ struct AssignmentCost {
 struct AssignedTransfer {
   std::size_t deputy = 0;
   std::size_t slot = 0;
-  TransferPoint transfer;  ///< proved by flying
+  TransferPoint transfer;  ///< the transfer, proved by flying
 };
 
-/// The least separation of two deputies on their ways.
+/// The least separation of two deputies during their transfers.
 struct DeputyPair {
   std::size_t first = 0;
   std::size_t second = 0;
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   double separation_m = 0;
 };
 
@@ -34,32 +35,34 @@ struct DeputyPair {
 struct AssignmentResult {
   Scene scene;  ///< with `transfer` and `assignment`
   std::string integrator;
-  ChosenCoordinates coordinates;                   ///< of the polynomials; not automatic
-  std::vector<std::vector<AssignmentCost>> costs;  ///< [deputy][slot], each at its best time (or at
-                                                   ///< the common one)
-  std::optional<std::size_t> common_time;          ///< index, where the scene asks for one
-  std::vector<AssignedTransfer> transfers;         ///< in the order of the deputies that have one
-  /// Of each pair of deputies that fly, while they do; see AssignmentSettings::keep_apart_m.
+  ChosenCoordinates coordinates;  ///< coordinates of the polynomials; not automatic
+  /// [deputy][slot], each at its best time (or at the common time).
+  std::vector<std::vector<AssignmentCost>> costs;
+  /// Index of the time, if the scene asks for a common one.
+  std::optional<std::size_t> common_time;
+  std::vector<AssignedTransfer> transfers;  ///< in the order of the deputies that have a transfer
+  /// For each pair of deputies that fly, while both fly; see AssignmentSettings::keep_apart_m.
   std::vector<DeputyPair> pairs;
   double total_change_m_s = 0;
   double flight_floor_m = 0;
   double study_seconds = 0;
   double proof_seconds = 0;
-  std::vector<SelfCheck> checks;  ///< of the chief's flight; transfers have marks of their own
-  std::string
-      failure;  ///< not empty: there are not as many transfers as deputies or slots, and why
+  /// Checks of the chief's flight; transfers have marks of their own.
+  std::vector<SelfCheck> checks;
+  std::string failure;  ///< if not empty, the reason why some deputies or slots have no transfer
 };
 
-/// The study of table `[assignment]`: a matrix of velocity changes from the generating functions of
-/// `[transfer]`'s times, and the assignment of least total (a flow of least cost; Boost Graph), of
-/// as many pairs as there are of the fewer, deputies or slots. Only transfers away from
-/// singularities count; those chosen are proved by flying. Throws as study_transfer.
+/// The study of table `[assignment]`. Velocity changes for all pairs come from the generating
+/// functions at the times of `[transfer]`. The assignment has as many pairs as there are deputies
+/// or slots, whichever are fewer, and the least total (a flow of least cost; Boost Graph). Only
+/// transfers away from singularities count; the chosen ones are proved by flying. Throws as
+/// study_transfer.
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress = {});
 
-/// The pair that comes nearest; none of fewer than two deputies.
+/// The pair that comes nearest; no value for fewer than two deputies.
 std::optional<DeputyPair> nearest_pair(const AssignmentResult& result);
 
-/// Those of `count` deputies, or slots, that no transfer has.
+/// The indices, below `count`, of the deputies (or slots) that have no transfer.
 std::vector<std::size_t> left_out(const std::vector<AssignedTransfer>& transfers, std::size_t count,
                                   std::size_t AssignedTransfer::*which);
 

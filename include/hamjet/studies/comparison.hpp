@@ -10,7 +10,7 @@
 
 namespace hamjet {
 
-/// What a comparison finds of a run: whether its map is exact (symplectic), and whether its
+/// The verdict of a comparison on a run: whether its map is exact (symplectic), and whether its
 /// coefficients are accurate.
 enum class Corner {
   exact_and_accurate,
@@ -23,56 +23,59 @@ enum class Corner {
 const std::vector<std::string_view>& corner_names();
 
 /// A run is called exact if its scaled symplecticity defect, over all degrees, is at most this. A
-/// method that is not symplectic comes below it too where its error is at round-off: no measurement
-/// can then tell the two apart.
+/// method that is not symplectic also counts as exact if its error is at round-off: no measurement
+/// can then distinguish the two.
 inline constexpr double largest_exact_defect = 1e-13;
 
-/// One integrator with one step or tolerance at one order, and all that was measured of it.
+/// One integrator with one step or tolerance at one order, and all measurements of it.
 struct ComparedRun {
   IntegratorSettings settings;  ///< the label is unique among the runs of one order
-  std::string series;           ///< runs that differ in step or tolerance alone share it
-  int order = 0;                ///< of the jet
-  std::string failure;          ///< not empty: a numerical failure, and which
-  std::string left_out;         ///< not empty: not run, and why
+  std::string series;   ///< name of the series; runs that differ only in step or tolerance share it
+  int order = 0;        ///< order of the jet
+  std::string failure;  ///< if not empty, the numerical failure
+  std::string left_out;  ///< if not empty, the reason why it was not run
   IntegrationStatistics statistics;
-  double multiply_adds = 0;             ///< of the products of series, all evaluations together
-  double memory_bytes = 0;              ///< of the integrator's series, estimated
-  std::vector<double> seconds;          ///< of the integration alone, one entry a repeat
+  double multiply_adds = 0;     ///< multiply-adds of the products of series, in all evaluations
+  double memory_bytes = 0;      ///< estimated memory of the integrator's series
+  std::vector<double> seconds;  ///< time of the integration alone, one entry for each repetition
   std::vector<double> error_by_degree;  ///< see relative_error_by_degree
-  /// Errors estimated without the reference, see estimate_error; empty where the independent run
+  /// Errors estimated without the reference, see estimate_error; empty if the independent run
   /// failed.
   std::vector<double> error_estimate_by_degree;
-  double error_at_formation_m = 0;        ///< see ComparisonResult::separation_points
-  std::vector<ExactnessEntry> exactness;  ///< of ComparisonResult::kind; empty if there is none
-  std::string exactness_failure;          ///< not empty: the kind does not exist for this run's map
+  double error_at_formation_m = 0;  ///< see ComparisonResult::separation_points
+  /// Exactness of ComparisonResult::kind; empty if there is no kind.
+  std::vector<ExactnessEntry> exactness;
+  std::string exactness_failure;  ///< if not empty, the reason why the kind does not exist for this
+                                  ///< run's map
   std::vector<SymplecticityDefect> symplecticity;  ///< by degree; degree 0 is the linear part
   double energy_error = 0;                         ///< largest magnitude along the nominal
-  std::optional<Corner> corner;  ///< none where the jet is not a full map of phase space
+  std::optional<Corner> corner;  ///< no value if the jet is not a full map of phase space
 
   bool is_finished() const { return failure.empty() && left_out.empty(); }
   double median_seconds() const;          ///< 0 before the first timing
-  double largest_error() const;           ///< of all degrees
-  double largest_error_estimate() const;  ///< of all degrees; infinite without estimate
-  double largest_symplecticity() const;   ///< scaled, of all degrees
+  double largest_error() const;           ///< over all degrees
+  double largest_error_estimate() const;  ///< over all degrees; infinite without an estimate
+  double largest_symplecticity() const;   ///< scaled, over all degrees
 };
 
-/// A fitted order of convergence: slope of log error against log step.
+/// A fitted order of convergence: the slope of log error against log step.
 struct ConvergenceFit {
   std::string series;
   int degree = 0;
   double slope = 0;
-  double expected = 0;              ///< what theory predicts
-  std::vector<std::string> labels;  ///< of the runs used: those above the rounding floor
-  /// Step (canonical) and relative error of the runs used, the finest first.
+  double expected = 0;  ///< order predicted by theory
+  /// Labels of the runs in the fit, which lie above the rounding floor.
+  std::vector<std::string> labels;
+  /// Step (canonical) and relative error of the runs in the fit, the finest first.
   std::vector<std::pair<double, double>> points = {};
-  /// Whether the runs were made for the fit in extended precision, with smaller steps than double
-  /// precision resolves, and the next term of the error's expansion is fitted too.
+  /// Whether the runs were made for the fit, in extended precision, with smaller steps than double
+  /// precision resolves. The next term of the error's expansion is then fitted too.
   bool is_extended = false;
-  /// The fraction of the duration, from its start, over which the fitted runs went.
+  /// The fraction of the duration, from its start, that the fitted runs cover.
   double arc = 1;
 
-  /// Whether the slope is within 0.3 of theory. Where it is not, the leading term does not yet
-  /// dominate at the steps that could be run.
+  /// Whether the slope is within 0.3 of theory. If not, the leading term does not yet dominate at
+  /// the steps that could be run.
   bool agrees() const { return std::abs(slope - expected) <= 0.3; }
 };
 
@@ -80,27 +83,29 @@ struct ConvergenceFit {
 struct ComparisonResult {
   Scene scene;
   bool is_complete = false;
-  ReferenceResult reference;  ///< of the largest order that is compared
+  ReferenceResult reference;  ///< reference at the largest order that is compared
   bool is_reference_cached = false;
-  std::optional<GeneratingFunctionKind> kind;  ///< whose exactness is stated: the scene's first, or
-                                               ///< the best conditioned; none without a full jet
+  std::optional<GeneratingFunctionKind>
+      kind;  ///< kind whose exactness is reported: the scene's first, or the best conditioned one;
+             ///< no value without a full jet
   double kind_condition = 0;
   std::size_t separation_points =
-      0;                          ///< deviations over which error_at_formation_m is the greatest
-  std::vector<ComparedRun> runs;  ///< at the scene's order
-  std::vector<ComparedRun> cost_runs;    ///< one configuration a method over the orders
+      0;  ///< separation: error_at_formation_m is the greatest error over deviations of this size
+  std::vector<ComparedRun> runs;         ///< runs at the scene's order
+  std::vector<ComparedRun> cost_runs;    ///< one configuration of each method, over the orders
   std::vector<RunAlongTime> along_time;  ///< the scene's own integrators
   std::vector<ConvergenceFit> fits;
 
-  /// Relative errors below this are the reference's own as well: ten times its uncertainty. 0 for a
-  /// degree that the reference does not have.
+  /// Relative errors below this number, ten times the reference's uncertainty, may be errors of the
+  /// reference. It is 0 for a degree that the reference does not have.
   double smallest_claimed_error(int degree) const;
-  /// Values of error_at_formation_m below this, in metres, are not claimed: it is the most that
-  /// smallest_claimed_error adds up to at that separation. 0 before there is a reference.
+  /// Values of error_at_formation_m below this, in metres, are not claimed: it is the largest error
+  /// at that separation that coefficients with errors of smallest_claimed_error can cause. It is 0
+  /// before there is a reference.
   double smallest_claimed_error_m() const;
 };
 
-/// An integrator to compare. Without `integrate` the settings name the method.
+/// An integrator to compare. Without `integrate`, the settings name the method.
 struct Candidate {
   IntegratorSettings settings;
   std::function<FlowJet<double>(const FlowProblem<double>&, IntegrationStatistics&,
@@ -108,50 +113,53 @@ struct Candidate {
       integrate = {};
 };
 
-/// Candidates that differ in step or tolerance alone, the coarsest first.
+/// Candidates that differ only in step or tolerance, the coarsest first.
 struct CandidateSeries {
   std::string name;
-  double order = 0;  ///< of convergence, for fixed steps; 0 where it is not to be fitted
-  bool stops_at_round_off = false;  ///< finer ones are not run once the error no longer falls
+  double order = 0;  ///< order of convergence, for fixed steps; 0 if it is not to be fitted
+  bool stops_at_round_off =
+      false;  ///< whether finer candidates are skipped once the error no longer falls
   std::vector<Candidate> candidates;
 };
 
-/// What the scene's `[compare]` table asks for, its defaults filled in. Labels are unique.
+/// The series that the scene's table `[compare]` asks for, with defaults filled in. Labels are
+/// unique.
 std::vector<CandidateSeries> candidate_series(const Scene& scene);
 
-/// Keeps references from one comparison to the next. A reference is found again by a text that
-/// holds all that determines it.
+/// Keeps references from one comparison to the next. The key of a reference is a text that contains
+/// everything that determines it.
 class ReferenceStore {
  public:
   virtual ~ReferenceStore() = default;
-  /// The reference stored under a key, in the series of `space`; none if there is none that can be
-  /// read.
+  /// The reference stored under a key, in the series of `space`; no value if there is none that can
+  /// be read.
   virtual std::optional<ReferenceResult> load(const std::string& key,
                                               const SpacePointer& space) = 0;
-  /// Stores a reference. Best effort: a failure is ignored.
+  /// Stores a reference. A failure to store it is ignored.
   virtual void save(const std::string& key, const ReferenceResult& reference) = 0;
 };
 
 /// Everything that determines a scene's reference of one order, as text.
 std::string reference_key(const Scene& scene, int order);
 
-/// Everything that determines a comparison's figures apart from times, as text: two comparisons may
-/// be merged only if theirs agree.
+/// Everything that determines the results of a comparison, apart from times, as text. Two
+/// comparisons may be merged only if these texts are equal.
 std::string comparison_key(const Scene& scene);
 
-/// What a comparison is given beside its scene.
+/// Input of a comparison beside its scene.
 struct ComparisonOptions {
   ProgressCallback progress = {};
   ReferenceStore* references = nullptr;
-  /// Called between integrations, when `result` holds whole entries only: the place to save it.
+  /// Called between integrations, when all entries of `result` are complete, so that it can be
+  /// saved.
   std::function<void()> checkpoint = {};
-  std::vector<CandidateSeries> series = {};  ///< empty: candidate_series(scene)
+  std::vector<CandidateSeries> series = {};  ///< if empty, candidate_series(scene)
 };
 
-/// Compares integrators on a scene: every candidate is integrated and judged against the reference
-/// once, then all are timed in turns, so that a noisy machine hurts all alike. `result` may hold
-/// what an interrupted comparison of the same scene had finished, which is not done again; it is
-/// filled as the work goes on, and is worth keeping when `progress` throws.
+/// Compares integrators on a scene. Every candidate is integrated and judged against the reference
+/// once. Then all are timed in turns, so that other load on the machine affects all alike. `result`
+/// may hold finished parts of an interrupted comparison of the same scene, which are not repeated.
+/// It is filled as the work proceeds, and may be kept when `progress` throws.
 ///
 /// Errors below ten times the reference's uncertainty are not claimed. Throws Error(scene) for a
 /// scene that cannot be compared, Error(numerical) if the reference fails or does not agree with
@@ -162,11 +170,11 @@ void compare(const Scene& scene, const ComparisonOptions& options, ComparisonRes
 /// fastest series first.
 std::vector<const ComparedRun*> cheapest_runs(const ComparisonResult& result, double error_m);
 
-/// What the comparison says in one sentence, with numbers.
+/// The conclusion of the comparison in one sentence, with numbers.
 std::string verdict(const ComparisonResult& result);
 
-/// The cheapest configuration that reaches the wanted error, as `[[integrator]]` lines ready for a
-/// scene; a comment that says so where none does.
+/// The cheapest configuration that reaches the wanted error, as `[[integrator]]` lines for a scene;
+/// if none does, a comment that says so.
 std::string advice(const ComparisonResult& result);
 
 }  // namespace hamjet

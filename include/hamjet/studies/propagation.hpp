@@ -21,100 +21,104 @@
 
 namespace hamjet {
 
-/// One point of the nominal trajectory, canonical.
+/// One point of the nominal trajectory, in canonical units.
 struct NominalPoint {
   double time = 0;
   std::vector<double> state;  ///< all 2n components of the model
   double energy_error = 0;    ///< (H - H(0)) / |H(0)|; H - H(0) where H(0) = 0
 };
 
-/// One degree of the exactness residual, and the rounding floor below which it says nothing: the
-/// residual of the reference rounded to the run's precision. No floor without a reference.
+/// One degree of the exactness residual, and its rounding floor, below which the residual means
+/// nothing: the residual of the reference rounded to the run's precision. There is no floor without
+/// a reference.
 struct ExactnessEntry {
   ExactnessResidual residual;
   std::optional<ExactnessResidual> floor;
 };
 
-/// A generating function of one kind, and how exact it is.
+/// A generating function of one kind, and its exactness.
 struct KindResult {
-  std::string requested;  ///< as in the scene: F1..F4, auto, or explicit
+  std::string requested;  ///< name in the scene: F1..F4, auto, or explicit
   GeneratingFunctionKind kind;
   double condition = 0;
   std::vector<ExactnessEntry> by_degree;
   std::optional<Series<Extended>> generating_function;
-  std::string failure;  ///< not empty: the kind does not exist at the final time, and why
+  std::string failure;  ///< if not empty, the reason why the kind does not exist at the final time
 };
 
-/// What was done with a run's jet, counted where it is done.
+/// The operations on a run's jet, counted where they are done.
 struct AnalysisCounts {
   long inversions = 0;           ///< partial inversions of the map
-  long compositions = 0;         ///< of an inverted map with the map, along a line
-  long exactness_residuals = 0;  ///< of a one-form
-  long poisson_brackets = 0;     ///< of two components of the map
+  long compositions = 0;         ///< compositions of an inverted map with the map, along a line
+  long exactness_residuals = 0;  ///< exactness residuals of a one-form
+  long poisson_brackets = 0;     ///< Poisson brackets of two components of the map
 };
 
 /// A run's jet at a time before the duration.
 struct JetAtTime {
-  double time = 0;                     ///< canonical
-  FlowJet<Extended> jet;               ///< of the computed components
-  std::vector<double> nominal;         ///< all components of the model then
-  std::vector<double> error_estimate;  ///< by degree; empty where there is none
+  double time = 0;                     ///< in canonical units
+  FlowJet<Extended> jet;               ///< the computed components
+  std::vector<double> nominal;         ///< all components of the model at that time
+  std::vector<double> error_estimate;  ///< by degree; empty if there is no estimate
 };
 
 /// A run's polynomials in the scene's own coordinates, beside its jet in positions and momenta.
 struct ChartedJet {
   CoordinatesAtEnds coordinates;
-  /// Of flow boxes the chart of their sections, and its values are FlowBoxMap's, `time` before
-  /// `coordinates`; else absent, and it is in_charts of the run's jet.
+  /// For flow boxes, the chart of their sections; the values are then those of FlowBoxMap, `time`
+  /// before `coordinates`. Otherwise absent; the polynomials are then in_charts of the run's jet.
   std::optional<ChartName> section;
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;  ///< in positions and momenta
   std::vector<SymplecticityDefect> symplecticity;
-  /// Of flow boxes, by further integrations (see charted_jet), where the scene estimates errors.
+  /// For flow boxes, an estimate by further integrations (see charted_jet), if the scene estimates
+  /// errors.
   JetErrorEstimate error_estimate;
-  double seconds = 0;   ///< of making it, without the estimate
-  std::string failure;  ///< not empty: there is none, and why
+  double seconds = 0;   ///< time of making it, without the estimate
+  std::string failure;  ///< if not empty, the reason why there is none
 };
 
-/// What one integrator gave.
+/// The results of one integrator.
 struct RunResult {
   IntegratorSettings settings;
   IntegrationStatistics statistics;
-  std::vector<std::string> failed_checks;  ///< those of the scene and self-checks, one line each
-  std::vector<SelfCheck> checks;           ///< all self-checks; empty if the run failed
-  std::string failure;                     ///< not empty: no result, and why
-  /// The components of the flow's jet that were computed, exact copies in extended precision.
+  /// Checks of the scene and self-checks that failed, one line each.
+  std::vector<std::string> failed_checks;
+  std::vector<SelfCheck> checks;  ///< all self-checks; empty if the run failed
+  std::string failure;            ///< if not empty, the reason why there is no result
+  /// The computed components of the flow's jet, as exact copies in extended precision.
   FlowJet<Extended> jet;
   std::vector<double> nominal_final;
-  std::vector<JetAtTime> jets;  ///< at the scene's `jet_times`
-  std::optional<ChartedJet>
-      charted;              ///< if the scene's coordinates can be written, see charted_jet
+  std::vector<JetAtTime> jets;  ///< jets at the scene's `jet_times`
+  /// If polynomials in the scene's coordinates can be written, see charted_jet.
+  std::optional<ChartedJet> charted;
   double energy_error = 0;  ///< the largest magnitude along the nominal
   EnergyAlongNominal energy;
   AnalysisCounts counts;
-  std::optional<ArcStatistics> arcs;          ///< unless the scene has one arc, as by default
-  std::optional<LowestPoint> lowest_point;    ///< if it was watched
+  std::optional<ArcStatistics> arcs;        ///< unless the scene has one arc, which is the default
+  std::optional<LowestPoint> lowest_point;  ///< if it was observed
   std::optional<InversionQuality> inversion;  ///< if a map was inverted and composed
   std::vector<NominalPoint> nominal;
   std::vector<KindResult> kinds;
-  std::vector<SymplecticityDefect> symplecticity;  ///< empty if not all variables are expanded in
+  /// Empty if the jet is not expanded in all variables.
+  std::vector<SymplecticityDefect> symplecticity;
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
-  /// By degree, what it costs that a shift in time was left out (FlowSymmetry): the relative
-  /// difference, along two lines of deviations, from the jet that the same steps make in all
-  /// variables. Empty where none was left out, and where it was not measured.
+  /// By degree, the effect of leaving out a shift in time (FlowSymmetry): the relative difference,
+  /// along two lines of deviations, from the jet that the same steps give in all variables. Empty
+  /// if no shift was left out, or if this was not measured.
   std::vector<double> time_shift_difference;
-  /// Distance of the nominal's final position from the reference's.
+  /// Distance of the nominal's final position from that of the reference.
   std::optional<double> position_error_m;
   std::optional<RunAlongTime> along_time;  ///< if the scene asks for a figure
 };
 
-/// The extended-precision reference: two runs of different step size, the finer one kept.
+/// The extended-precision reference: the finer of two runs with different step sizes.
 struct ReferenceResult {
   FlowJet<Extended> jet;
   std::vector<double> uncertainty_by_degree;  ///< relative difference of the two runs
-  IntegrationStatistics statistics;           ///< of the finer run
-  int runs = 0;                               ///< integrations that were done for it
+  IntegrationStatistics statistics;           ///< statistics of the finer run
+  int runs = 0;                               ///< number of integrations that were done for it
   int stages = 0;
   double tolerance = 0;
 
@@ -122,7 +126,7 @@ struct ReferenceResult {
   double largest_uncertainty() const {
     return *std::max_element(uncertainty_by_degree.begin(), uncertainty_by_degree.end());
   }
-  /// Relative errors below this, ten times the uncertainty, may be the reference's own.
+  /// Relative errors below this number, ten times the uncertainty, may be errors of the reference.
   double smallest_claimed_error() const { return 10 * largest_uncertainty(); }
 };
 
@@ -134,16 +138,19 @@ struct RelativeHamiltonianResult {
 
 /// The part of a scene's problem that is computed.
 struct ComputedProblem {
-  std::vector<std::size_t> degrees_of_freedom;  ///< kept; the others vanish identically
+  /// Degrees of freedom that are kept; the others vanish identically.
+  std::vector<std::size_t> degrees_of_freedom;
   std::vector<std::size_t> components;  ///< index in the model's state of each component computed
   std::vector<std::size_t> variables;   ///< index among the components of each variable
   SpacePointer space;
   SharedSystem system;
-  std::vector<double> nominal;  ///< of the components
-  bool is_full_jet = false;     ///< all components are expanded in: a map of phase space
-  FlowSymmetry symmetry = FlowSymmetry::rotation;  ///< left out by the integrators that can
-  /// Binary exponent of the unit in which momenta are compared with positions: for an orbit that of
-  /// the chief's own motion, so that no verdict depends on the unit of length.
+  std::vector<double> nominal;  ///< nominal of these components
+  bool is_full_jet =
+      false;  ///< whether the jet is expanded in all components, and thus a map of phase space
+  FlowSymmetry symmetry =
+      FlowSymmetry::rotation;  ///< symmetry to be left out by the integrators that can do so
+  /// Binary exponent of the unit in which momenta are compared with positions. For an orbit it is
+  /// that of the chief's own motion, so that no verdict depends on the unit of length.
   int momentum_exponent = 0;
 };
 
@@ -152,12 +159,13 @@ struct PropagationResult {
   Scene scene;
   ComputedProblem problem;
   std::optional<ReferenceResult> reference;
-  std::string
-      reference_failure;  ///< not empty: the scene asks for a reference that failed, and why
+  std::string reference_failure;  ///< if not empty, the reason why the scene's reference failed
   std::vector<RunResult> runs;
-  long floor_inversions = 0;  ///< of the reference's map, for rounding floors of exactness
+  long floor_inversions =
+      0;  ///< number of inversions of the reference's map, for rounding floors of exactness
   std::vector<RelativeHamiltonianResult> relative_hamiltonians;
-  std::string relative_hamiltonian_failure;  ///< not empty: times are missing above, and why
+  std::string
+      relative_hamiltonian_failure;  ///< if not empty, the reason why times are missing above
 };
 
 /// A system in canonical units; `canonical_radius` is its gravity field's radius in them.
@@ -165,33 +173,33 @@ DynamicalSystem make_system(const SystemSettings& settings, double canonical_rad
 /// The system of a scene in canonical units.
 DynamicalSystem make_system(const Scene& scene);
 
-/// What has to be computed for a scene: degrees of freedom that stay exactly zero and that the
-/// scene does not expand in are left out. Throws Error(too_large), naming the estimate, if the
-/// series would not fit available_memory() (32 MB or less are not asked for), Error(usage) if an
-/// integrator is not in this build.
-/// Arcs are integrated on `threads` threads.
+/// The problem that has to be computed for a scene. Degrees of freedom that stay exactly zero, and
+/// in which the scene does not expand, are left out. Throws Error(too_large), naming the estimate,
+/// if the series would not fit available_memory() (32 MB or less always fit), and Error(usage) if
+/// an integrator is not in this build. Arcs will be integrated on `threads` threads.
 ComputedProblem make_problem(const Scene& scene, std::size_t threads = 1);
 
-/// Bytes that the scene's runs need at most, from the counts of series and coefficients.
+/// Upper bound, in bytes, of the memory that the scene's runs need, from the counts of series and
+/// coefficients.
 double estimate_memory(const Scene& scene, const DynamicalSystem& system, std::size_t variables,
                        std::size_t threads = 1);
 
-/// Memory that this machine can give now, in bytes; infinite where that cannot be known.
+/// Memory in bytes that this machine can provide now; infinite if this is not known.
 double available_memory();
 
-/// Runs a scene: the reference if it asks for one, then each integrator, then the inversions that
-/// it asks for. A numerical failure of one part (the reference, one integrator, one kind) is
-/// recorded in its result and the others go on; other errors are thrown. Arcs (Scene::arcs) are
-/// integrated on `threads` threads, on which the result does not depend.
+/// Runs a scene: the reference, if the scene asks for one, then each integrator, then the
+/// inversions. A numerical failure of one part (the reference, one integrator, one kind) is
+/// recorded in the result of this part and does not stop the others; other errors are thrown. Arcs
+/// (Scene::arcs) are integrated on `threads` threads, on which the result does not depend.
 PropagationResult propagate(const Scene& scene, const ProgressCallback& progress = {},
                             std::size_t threads = 1);
 
-/// The kind whose exactness the scene's figure shows; none if it shows none.
+/// The kind whose exactness the scene's figure shows; no value if it shows none.
 std::optional<GeneratingFunctionKind> figure_kind(const Scene& scene,
                                                   const ComputedProblem& problem);
 
-/// For each degree the largest difference of a coefficient from the reference's, relative to the
-/// reference's largest coefficient of that degree (over all components); 0 where both vanish.
+/// For each degree, the largest difference of a coefficient from that of the reference, relative to
+/// the reference's largest coefficient of that degree (over all components); 0 where both vanish.
 /// Degrees go up to the lower of the two orders.
 std::vector<double> relative_error_by_degree(const FlowJet<Extended>& jet,
                                              const FlowJet<Extended>& reference);

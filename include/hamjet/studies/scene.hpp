@@ -19,27 +19,27 @@
 
 namespace hamjet {
 
-/// Arithmetic of the whole chain: binary64, or 113 significant bits (Boost.Multiprecision).
+/// Arithmetic of all computations: binary64, or 113 significant bits (Boost.Multiprecision).
 enum class Precision { double_precision, extended };
 
-/// The machine epsilon of an arithmetic, to which its numbers are rounded.
+/// The machine epsilon of an arithmetic.
 double rounding_of(Precision precision);
 
-/// Canonical units: SI value = canonical value times these. For an orbit the length is the
-/// nominal's initial radius, or what the scene chooses, and mu = 1; for the other models metre and
-/// second.
+/// Canonical units: the SI value is the canonical value times these. For an orbit the unit of
+/// length is the nominal's initial radius, or one that the scene chooses, and mu = 1; the other
+/// models have metre and second.
 struct CanonicalUnits {
   double length_km = 1;
   double time_s = 1;
 };
 
-/// By what canonical numbers are multiplied to be told in other canonical units.
+/// Factors that convert canonical numbers to other canonical units.
 struct CanonicalFactors {
   double length = 1;
   double time = 1;
-  double momentum = 1;  ///< of a mass of 1: a velocity
+  double momentum = 1;  ///< for momenta of a mass of 1, that is velocities
 
-  /// An action, as an angular momentum is one, in these numbers.
+  /// Converts an action, for example an angular momentum.
   double told_action(double canonical) const { return canonical * length * momentum; }
 };
 
@@ -48,98 +48,109 @@ struct ReferenceSettings {
   double tolerance = 1e-24;  ///< local tolerance of the finer of the two extended-precision runs
 };
 
-/// Table `[compare]`: what `hamjet compare` sweeps over.
+/// Table `[compare]`: the runs of `hamjet compare`.
 struct ComparisonSettings {
-  std::vector<IntegrationMethod> methods;  ///< empty: all that are in this build
-  std::vector<int> stages = {1, 2, 4, 8};  ///< of Gauss
-  std::vector<double> steps_canonical;     ///< empty: halved from far too coarse to round-off
-  std::vector<double> tolerances;          ///< empty: by powers of ten from 1e-2 to round-off
-  std::vector<int> orders;                 ///< of the cost against order; empty: 1 to jet.order
-  int repeats = 5;                         ///< timings of each run
-  double time_budget_s = 150;  ///< of all integrations; what would exceed it is left out
-  double wanted_error_m = 1;   ///< at formation scale; for verdict and advice
+  std::vector<IntegrationMethod> methods;  ///< if empty, all methods in this build
+  std::vector<int> stages = {1, 2, 4, 8};  ///< numbers of stages of Gauss
+  std::vector<double> steps_canonical;     ///< if empty, halved from far too coarse to round-off
+  std::vector<double> tolerances;          ///< if empty, powers of ten from 1e-2 to round-off
+  std::vector<int> orders;  ///< orders for the cost against order; if empty, 1 to jet.order
+  int repeats = 5;          ///< number of timings of each run
+  double time_budget_s =
+      150;  ///< budget of all integrations; runs that would exceed it are left out
+  double wanted_error_m = 1;  ///< error at formation scale, for verdict and advice
 };
 
-/// What `hamjet run` draws along time.
+/// The quantity that `hamjet run` draws along time.
 enum class FigureQuantity { exactness, energy_error };
 
 /// Table `[figure]`.
 struct FigureSettings {
   FigureQuantity quantity = FigureQuantity::exactness;
-  std::string kind;  ///< whose exactness is drawn: F1..F4 or letters; empty for the energy error
+  std::string
+      kind;  ///< kind whose exactness is drawn: F1..F4 or letters; empty for the energy error
 };
 
-/// Table `[output]`: what `hamjet run` writes beside CSV and JSON.
+/// Table `[output]`: the output of `hamjet run` beside CSV and JSON.
 struct OutputSettings {
-  std::vector<std::string> formats;  ///< their names, such as "hdf5"
+  std::vector<std::string> formats;  ///< names of formats, such as "hdf5"
 
   bool has(std::string_view format) const {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   }
 };
 
-/// Table `[ephemeris]`: what a CCSDS message says of an orbit beyond its numbers.
+/// Table `[ephemeris]`: what a CCSDS message states about an orbit beyond its numbers.
 struct EphemerisSettings {
-  std::string epoch;            ///< of the nominal's start, ISO 8601, in the time system
-  std::string time_system;      ///< for example UTC, TDB
-  std::string reference_frame;  ///< inertial; its z axis is taken as the axis of the zonal field
-  std::string center_name;      ///< for example EARTH
-  std::string reference_frame_epoch = {};  ///< of a frame "of epoch", ISO 8601; else empty
+  std::string epoch;        ///< epoch of the nominal's start, in ISO 8601, in the time system
+  std::string time_system;  ///< for example UTC, TDB
+  std::string
+      reference_frame;      ///< inertial frame; its z axis is taken as the axis of the zonal field
+  std::string center_name;  ///< for example EARTH
+  std::string reference_frame_epoch =
+      {};  ///< epoch of a frame "of epoch", in ISO 8601; otherwise empty
   std::string object_name = "UNKNOWN";
-  std::string object_id = "UNKNOWN";   ///< international designator
-  std::string deputy_name = "DEPUTY";  ///< of the spacecraft that flies relative to the nominal
+  std::string object_id = "UNKNOWN";  ///< international designator
+  std::string deputy_name =
+      "DEPUTY";  ///< name of the spacecraft that flies relative to the nominal
   std::string deputy_id = "UNKNOWN";
-  std::string originator = "HAMJET";  ///< who made the message
-  std::string oem_version = "2.0";    ///< version that is written; or "3.0"
+  std::string originator = "HAMJET";  ///< originator of the message
+  std::string oem_version = "2.0";    ///< version that is written: "2.0" or "3.0"
 };
 
-/// The message that the nominal's start was read from.
+/// The message from which the nominal's start was read.
 struct NominalFile {
-  std::string path;                 ///< as the scene has it
+  std::string path;                 ///< path as in the scene
   std::string format;               ///< for example "OEM 2.0"
-  EphemerisSettings ephemeris;      ///< of the state that was taken
-  std::vector<std::string> unused;  ///< what else the message holds, for example "covariance"
+  EphemerisSettings ephemeris;      ///< metadata of the state that was taken
+  std::vector<std::string> unused;  ///< other contents of the message, for example "covariance"
 };
 
-/// A scene, read, checked and converted to canonical units. Lengths of arrays: 2n, with the n
-/// degrees of freedom of its system.
+/// A scene that has been read, checked and converted to canonical units. Arrays of length 2n belong
+/// to the n degrees of freedom of its system.
 struct Scene {
-  std::string name;  ///< stem of the file name, other characters than A-Z a-z 0-9 . _ - as _
+  std::string name;  ///< stem of the file name, where characters other than A-Z a-z 0-9 . _ - are
+                     ///< replaced by _
   std::string title;
   Precision precision = Precision::double_precision;
   SystemSettings system;
   CanonicalUnits units;
-  /// Those of the table `[units]`, in which the user is told canonical numbers; `units` are the
-  /// same or, see SceneUnits, the chief's own. Absent: there is no such table, and `units` are
-  /// told.
+  /// The units of the table `[units]`, in which the user reads canonical numbers. `units` are the
+  /// same or, see SceneUnits, the chief's own. Absent if there is no such table; the user then
+  /// reads numbers in `units`.
   std::optional<CanonicalUnits> told_units = {};
   double canonical_radius = 0;  ///< radius_km in canonical units
   std::vector<double> nominal;  ///< initial state (q, p), canonical
-  double duration = 0;          ///< canonical; negative is backwards
+  double duration = 0;          ///< in canonical units; negative is backwards
   int order = 1;
-  /// `jet.arcs`: pieces that the flow is split into; absent ("auto"): from the operation counts.
+  /// `jet.arcs`: the number of arcs into which the flow is split; absent ("auto") if it is chosen
+  /// from the operation counts.
   std::optional<std::size_t> arcs = 1;
-  /// `jet.symmetry`: left out of the integration of jets and put back.
+  /// `jet.symmetry`: symmetry that is left out of the integration of jets and put back.
   FlowSymmetry symmetry = FlowSymmetry::rotation;
-  /// `jet.coordinates` and `jet.end_coordinates`, of the polynomials by which deputies are
-  /// predicted.
+  /// `jet.coordinates` and `jet.end_coordinates`: coordinates of the polynomials that predict
+  /// deputies.
   CoordinatesAtEnds coordinates;
-  std::vector<std::size_t> variables;  ///< indices into (q, p) to expand in, ascending
-  /// `jet.times_...`: canonical times before the duration at which runs, all of Gauss and in one
-  /// arc, have their jets too, moving away from 0; empty: at the duration alone.
+  /// Indices into (q, p) of the variables of the expansion, ascending.
+  std::vector<std::size_t> variables;
+  /// `jet.times_...`: canonical times before the duration, moving away from 0, at which runs have
+  /// their jets too; all runs must be of Gauss and in one arc. If empty, there are jets at the
+  /// duration alone.
   std::vector<double> jet_times;
   std::vector<IntegratorSettings> integrators;
-  /// `[formation]`, canonical length (metres where that is the unit).
+  /// `[formation]`: a canonical length (metres if metre is the unit).
   std::optional<double> separation;
   /// `[generating_function]`, as written: F1..F4, auto, or letters such as qpq-qqp (final
-  /// variables, then initial ones); absent: no inversion.
+  /// variables, then initial ones). Absent if nothing is to be inverted.
   std::optional<std::vector<std::string>> kinds;
-  std::optional<ReferenceSettings> reference;  ///< absent: no reference is run
-  /// `[relative_hamiltonian]`, canonical times between 0 and the duration; empty: not computed.
+  std::optional<ReferenceSettings> reference;  ///< absent if no reference is to be run
+  /// `[relative_hamiltonian]`: canonical times between 0 and the duration; empty if it is not to be
+  /// computed.
   std::vector<double> relative_hamiltonian_times;
   SelfCheckSettings checks;
   ComparisonSettings comparison;
-  std::optional<FigureSettings> figure;  ///< absent: no figure, and nothing is watched along time
+  /// Absent if there is no figure and nothing is observed along time.
+  std::optional<FigureSettings> figure;
   std::optional<DeputySettings> deputy;
   std::optional<TransferSettings> transfer;
   std::optional<ValiditySettings> validity;
@@ -149,26 +160,26 @@ struct Scene {
   std::optional<EventSettings> event;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
-  std::optional<NominalFile> nominal_file;  ///< absent: the scene has the numbers itself
-  std::vector<std::string> warnings;        ///< what is almost surely a slip, a line each
+  std::optional<NominalFile> nominal_file;  ///< absent if the scene itself has the numbers
+  std::vector<std::string> warnings;        ///< likely mistakes in the scene, one line each
   /// The system of a scene that no file describes, in canonical units; see make_scene.
   std::shared_ptr<const DynamicalSystem> own_system = nullptr;
 };
 
-/// The units in which the user is told canonical numbers of a scene.
+/// The units in which the user reads canonical numbers of a scene.
 const CanonicalUnits& told_units(const Scene& scene);
-/// What takes the scene's canonical numbers into these; all exactly 1 where they are the same.
+/// The factors that convert the scene's canonical numbers to these units; all exactly 1 if the
+/// units are the same.
 CanonicalFactors told_factors(const Scene& scene);
-/// A canonical time of the scene in these.
+/// A canonical time of the scene in these units.
 double told_time(const Scene& scene, double time);
-/// A state (q, p) of the scene in these.
+/// A state (q, p) of the scene in these units.
 std::vector<double> told_state(const Scene& scene, std::vector<double> state);
 
-/// A scene of a Hamiltonian of one's own: its jet in all variables about the trajectory of
-/// `nominal`, 2n numbers (q, p), n at most 8. The integrators, the reference and what else is
-/// wanted are filled in by the caller. Canonical units are the system's own; they count as metre
-/// and second where results have units, unless `units` says otherwise. Throws Error(usage) if the
-/// sizes do not fit.
+/// A scene for the caller's own Hamiltonian: its jet in all variables about the trajectory of
+/// `nominal`, 2n numbers (q, p), n at most 8. The caller fills in the integrators, the reference
+/// and other settings. Canonical units are the system's own; they count as metre and second where
+/// results have units, unless `units` says otherwise. Throws Error(usage) if the sizes do not fit.
 Scene make_scene(DynamicalSystem system, std::vector<double> nominal, double duration, int order,
                  const CanonicalUnits& units = {0.001, 1});
 

@@ -7,9 +7,10 @@ namespace hamjet {
 
 /// How a probability of collision is found from samples of the polynomials.
 enum class CollisionSampling {
-  automatic,  ///< entries, where they can be drawn; else plain
-  plain,      ///< deviations as they are distributed
-  entries,    ///< deviations whose linear path enters a sphere somewhat larger, weighted
+  automatic,  ///< `entries`, where such deviations can be drawn; otherwise `plain`
+  plain,      ///< deviations drawn from their own distribution
+  entries,  ///< deviations whose linear path enters a sphere somewhat larger than the radius, with
+            ///< weights
 };
 
 inline constexpr std::array<std::string_view, 3> collision_sampling_names = {"automatic", "plain",
@@ -17,8 +18,9 @@ inline constexpr std::array<std::string_view, 3> collision_sampling_names = {"au
 
 /// What counts as a collision in the window.
 enum class CollisionEvent {
-  nearer,  ///< that they are nearer than the radius at any time of the window
-  entry,   ///< that they become nearer: those that are so when the window begins must come back
+  nearer,  ///< the spacecraft are nearer than the radius at some time of the window
+  entry,   ///< the spacecraft become nearer than the radius: a pair that is so when the window
+           ///< begins must leave and return
 };
 
 inline constexpr std::array<std::string_view, 2> collision_event_names = {"nearer", "entry"};

@@ -14,53 +14,55 @@ namespace hamjet {
 /// vy, vz.
 std::array<std::string_view, 6> component_names(RelativeFrame frame);
 
-/// A covariance matrix that has been looked at: finite, symmetric and positive semidefinite, as far
-/// as the digits tell that its numbers were written with.
+/// A checked covariance matrix: finite, symmetric and positive semidefinite, as far as this can be
+/// judged from the digits with which its numbers were written.
 ///
 /// The matrix is judged by its correlations, C_ij / (s_i s_j) with the standard deviations s, so
-/// that no unit matters. Numbers rounded to p digits are off by up to 5 10^-p of themselves; p is
-/// the most digits that one of the numbers needs to be written, at least 4 and at most 15. Of n
-/// numbers a row, an eigenvalue of the correlations is off by up to 2 n 5 10^-p: one below the
-/// negative of that is none of a covariance, one between that and zero is taken as zero.
+/// that no unit matters. A number rounded to p digits has a relative error of up to 5 10^-p; p is
+/// the largest number of digits that any of the numbers needs, at least 4 and at most 15. With n
+/// numbers in a row, an eigenvalue of the correlations then has an error of up to 2 n 5 10^-p. A
+/// matrix with an eigenvalue below the negative of this error is refused; an eigenvalue between
+/// that and zero is taken as zero.
 class Covariance {
  public:
-  /// Throws Error(usage), with `names` for the components (see fault_of), for what is no
+  /// Throws Error(usage), with `names` for the components (see fault_of), if the matrix is not a
   /// covariance.
   explicit Covariance(const Matrix<double>& matrix, const std::array<std::string_view, 6>& names =
                                                         component_names(RelativeFrame::inertial));
 
-  /// The covariance L L^T, positive semidefinite by itself.
+  /// The covariance L L^T, which is positive semidefinite by construction.
   static Covariance of_factor(Matrix<double> factor);
-  /// Of independent components with these standard deviations, of which none is below zero.
+  /// The covariance of independent components with these standard deviations, none of which may be
+  /// negative.
   static Covariance of_standard_deviations(const Vector<double>& deviations);
 
-  /// What is wrong with a matrix as a covariance, as the end of a message ("not symmetric, got ...,
-  /// must be ..."); none if it is one. Components beyond the names are told by number.
+  /// The reason why a matrix is not a covariance, as the end of a message ("not symmetric, got ...,
+  /// must be ..."); no value if it is one. Components beyond the names are named by number.
   static std::optional<std::string> fault_of(const Matrix<double>& matrix,
                                              const std::array<std::string_view, 6>& names);
 
-  /// Of six numbers that are known exactly.
+  /// The covariance of six numbers that are known exactly.
   Covariance() : factor_(6, 0) {}
 
   Eigen::Index size() const { return factor_.rows(); }
-  /// The number of independent directions: the columns of the factor.
+  /// The number of independent directions, which is the number of columns of the factor.
   Eigen::Index rank() const { return factor_.cols(); }
-  /// Symmetric, with what is rounding taken out.
+  /// The matrix, made symmetric, with negative eigenvalues that are rounding set to zero.
   Matrix<double> matrix() const;
-  /// L of L L^T = C, size x rank; where it follows from a matrix, its columns are the principal
-  /// axes of the correlations, the longest first.
+  /// The factor L of C = L L^T, size x rank. If it was made from a matrix, its columns are the
+  /// principal axes of the correlations, the longest first.
   const Matrix<double>& factor() const { return factor_; }
   /// The square roots of the variances.
   Vector<double> standard_deviations() const;
-  /// How far below zero the least eigenvalue of the given correlations was, and set to zero as the
-  /// rounding of the digits; 0 where it was above, or of a factor.
+  /// How far below zero the least eigenvalue of the given correlations was, if it was set to zero
+  /// as rounding of the digits; 0 if it was not negative, and for a covariance made from a factor.
   double taken_as_zero() const { return taken_as_zero_; }
 
-  /// The covariance of A x, whose factor is A L. A has `size` columns.
+  /// The covariance of A x, whose factor is A L. The matrix A has `size` columns.
   Covariance mapped(const Matrix<double>& map) const;
   /// The covariance of the sum of two independent vectors of one size.
   Covariance plus(const Covariance& other) const;
-  /// The covariance of two independent vectors, one below the other.
+  /// The covariance of two independent vectors, stacked into one.
   static Covariance of_independent(const Covariance& first, const Covariance& second);
 
  private:
@@ -68,13 +70,14 @@ class Covariance {
   double taken_as_zero_ = 0;
 };
 
-/// The 6x6 matrix from relative states in a frame (metres and metres a second, along its axes) to
-/// canonical deviations (dq, dp) from the chief along the inertial axes. A covariance of the former
-/// becomes one of the latter by `mapped`.
+/// The 6x6 matrix that takes relative states in a frame (metres and metres per second, along its
+/// axes) to canonical deviations (dq, dp) from the chief along the inertial axes. `mapped` by this
+/// matrix takes a covariance of the former to one of the latter.
 ///
-/// CCSDS messages give covariances along RTN with inertial velocities: RelativeFrame::rtn_inertial.
+/// CCSDS messages give covariances along RTN with inertial velocities, which is
+/// RelativeFrame::rtn_inertial.
 Matrix<double> deviations_of_relative_states(const ChiefFrame& frame);
-/// The inverse: relative states of canonical deviations.
+/// The inverse matrix, from canonical deviations to relative states.
 Matrix<double> relative_states_of_deviations(const ChiefFrame& frame);
 
 }  // namespace hamjet

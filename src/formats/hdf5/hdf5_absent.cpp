@@ -1,4 +1,4 @@
-// What stands in for hdf5_jets_*.cpp in a build without HDF5.
+// Replaces hdf5_jets_*.cpp in a build without HDF5.
 
 #include "hamjet/error.hpp"
 #include "hdf5_jets.hpp"

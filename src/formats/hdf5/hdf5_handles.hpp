@@ -11,7 +11,7 @@
 
 namespace hamjet::io::hdf5 {
 
-/// An HDF5 identifier that is closed when the object goes.
+/// An HDF5 identifier that is closed in the destructor.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -39,7 +39,7 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// While it lives this thread alone calls HDF5, and HDF5 prints no errors.
+/// During its lifetime only this thread calls HDF5, and HDF5 prints no errors.
 class Session {
  public:
   Session() : lock_(mutex()) {
@@ -61,8 +61,8 @@ class Session {
   void* data_ = nullptr;
 };
 
-/// What HDF5 says of an error, the innermost reason. Any further call forgets it, even the one that
-/// closes a Handle.
+/// HDF5's own message about an error, that of the innermost cause. Any further call of HDF5
+/// discards it, even the call that closes a Handle.
 inline std::string last_error() {
   std::string reason;
   const auto take = [](unsigned, const H5E_error2_t* error, void* text) -> herr_t {
@@ -76,7 +76,8 @@ inline std::string last_error() {
 /// A new file in memory.
 Handle create_in_memory();
 
-/// A file with these bytes, to be read; not valid, with the reason, if HDF5 cannot open it.
+/// A file with these bytes, for reading. If HDF5 cannot open it, the handle is not valid, and
+/// `reason` says why.
 Handle open_in_memory(std::string_view bytes, std::string& reason);
 
 }  // namespace hamjet::io::hdf5

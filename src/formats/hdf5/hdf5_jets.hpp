@@ -9,11 +9,11 @@
 #include "hamjet/studies/propagation.hpp"
 
 // `jets.h5`: the jets of all runs of a scene in one HDF5 file, which h5py, MATLAB and Julia read.
-// The file says itself what it holds (attribute `description`). Its first 512 bytes, which HDF5
-// leaves to the user, hold size and CRC-32 of what follows, so that a file that was cut or changed
-// is refused before anything in it is believed. A file that has grown, because another program has
-// added groups or attributes, is read all the same if the checksum of the run, over what is read,
-// is right; a note says so.
+// The attribute `description` describes the content. The first 512 bytes, which HDF5 leaves to the
+// user, hold the size and the CRC-32 of the rest, so that a file that was cut or changed is refused
+// before its content is used. A file that has grown because another program added groups or
+// attributes is still read if the checksum of the run, over all that is read, is right; a note says
+// so.
 //
 //   /               attributes: format, format_version, hamjet_version, description, scene, title,
 //                   model, precision, frame, units, length_unit_km, time_unit_s, order,
@@ -45,16 +45,16 @@ std::string jets_hdf5(const PropagationResult& result);
 /// functions.
 std::string jets_hdf5(const StoredJet& stored);
 
-/// Reads the run with this label, or else the first that has a result. A file that something else
-/// than hamjet has written, without the 512 bytes, is read all the same if it has what the jet
-/// needs in the layout above, contiguous and not compressed; its damage is left for HDF5 to find,
-/// which some damage crashes. `name` is the file's, for messages. Throws Error(input_output), one
-/// line with the file and the dataset or attribute, for what is damaged, missing, of another shape,
-/// type or format version; Error(usage) if no run has this label.
+/// Reads the run with this label or, without a label, the first run that has a result. A file that
+/// another program has written, without the 512 bytes, is also read if it has all parts of a jet in
+/// the layout above, contiguous and not compressed. In such a file only HDF5 can detect damage, and
+/// some damage makes HDF5 crash. `name` is the file's, for messages. Throws Error(input_output),
+/// with one line that names the file and the dataset or attribute, for content that is damaged or
+/// missing, or has another shape, type or format version; Error(usage) if no run has this label.
 StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
                          const std::optional<std::string>& label = {});
 
-/// Defined here because builds with and without HDF5 have no source in common.
+/// Defined here because builds with and without HDF5 share no source file.
 inline constexpr OutputFormat hdf5_format = {.name = "hdf5",
                                              .help = "HDF5",
                                              .file = "jets.h5",

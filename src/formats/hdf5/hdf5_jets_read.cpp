@@ -49,7 +49,7 @@ std::size_t index_of(const Reader& root, const char* attribute, const std::strin
   return static_cast<std::size_t>(found - names.begin());
 }
 
-/// Indices of variables, which must ascend as the writer's do.
+/// Indices of variables, which must ascend as the writer has them.
 std::vector<std::size_t> indices(const Reader& root, const char* attribute,
                                  const std::vector<std::string_view>& names) {
   std::vector<std::size_t> result;
@@ -80,7 +80,7 @@ StoredFlowBox read_flow_box(const Reader& root) {
   return box;
 }
 
-/// The coordinates of a file of the second or third version, and its flow box.
+/// The coordinates in a file of the second or third version, and its flow box.
 void read_coordinates(const Reader& root, int version, StoredJet& stored) {
   if (version == hdf5::flow_box_format_version) {
     for (const char* name : {"coordinates", "end_coordinates"}) {
@@ -147,7 +147,7 @@ StoredJet read_scene(const Reader& root) {
   return stored;
 }
 
-/// The label of the run that is wanted.
+/// The label of the wanted run.
 std::string choose_run(const Reader& root, const std::optional<std::string>& label) {
   const std::vector<std::string> labels = root.texts("runs");
   for (const std::string& candidate : labels) {
@@ -192,7 +192,8 @@ FlowJet<Extended> read_jet(const Reader& run, const StoredJet& stored, int order
   }
   const auto terms =
       static_cast<hsize_t>(std::round(SeriesSpace::monomial_count(variables, order)));
-  // Read before anything of this size is made: a damaged order could ask for gigabytes.
+  // The coefficients are read before memory of the size that the order demands is allocated: a
+  // damaged order could ask for gigabytes.
   const std::vector<double> rounded = run.doubles("coefficients", {components, terms});
   const bool is_extended = stored.precision == Precision::extended;
   std::vector<std::string> decimals;
@@ -245,7 +246,7 @@ StoredJet read_jets_hdf5(const std::string& name, std::string_view bytes,
         run.numbers(hdf5::error_attribute, static_cast<std::size_t>(order) + 1);
   }
   for (std::size_t c = 0; c < stored.components.size(); ++c) {
-    // In other coordinates the constant terms are those of the chief's end.
+    // In other coordinates the constant terms are the coordinates of the chief's end.
     if (stored.coordinates.end == JetCoordinates::cartesian &&
         static_cast<double>(stored.jet[c].constant()) !=
             stored.nominal_final[stored.components[c]]) {

@@ -160,8 +160,8 @@ void write_jet(const Writer& file, hid_t group, const FlowJet<Extended>& jet, Pr
   write_exponents(file, group, space, 0);
 }
 
-/// Writes all that is read of a run: its final state, the coefficients, their errors, which
-/// estimates of what is computed from them need, where they are known, and the checksum of these.
+/// Writes all parts of a run that are read back: the final state, the coefficients, their errors
+/// where they are known (estimates need these), and the checksum of these parts.
 void write_stored(const Writer& file, hid_t group, StoredJet stored, const FlowJet<Extended>& jet) {
   std::vector<double>& errors = stored.error_by_degree;
   const bool is_known =

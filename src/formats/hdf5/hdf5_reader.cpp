@@ -12,10 +12,10 @@
 namespace hamjet::io::hdf5 {
 namespace {
 
-/// Most values of an attribute: names and states are short.
+/// The largest number of values of an attribute; names and states are short.
 constexpr hsize_t most_values = 4096;
 
-/// How many values a space has: no axis is one value.
+/// The number of values of a dataspace; one without axes has one value.
 hsize_t size_of(hid_t space) {
   const hssize_t points = H5Sget_simple_extent_npoints(space);
   return points < 0 ? 0 : static_cast<hsize_t>(points);
@@ -155,15 +155,15 @@ int Reader::integer(const char* name) const {
   const Handle space(H5Aget_space(opened), H5Sclose);
   if (H5Tget_class(type) != H5T_INTEGER) fail(name, "the attribute must be an integer");
   if (size_of(space) != 1) fail(name, "the attribute must be one integer");
-  int value = 0;  // HDF5 takes what is out of range as the nearest int
+  int value = 0;  // HDF5 converts a value out of range to the nearest int
   if (H5Aread(opened, H5T_NATIVE_INT, &value) < 0) {
     fail(name, "the attribute cannot be read: " + printable(last_error()));
   }
   return value;
 }
 
-/// The dataset, if its shape is the one expected and its values, `width` bytes each at least, are
-/// in the file as they are.
+/// The dataset, if it has the expected shape and its values, of at least `width` bytes each, are
+/// stored contiguously and without filters.
 Handle Reader::dataset(const char* name, const std::vector<hsize_t>& shape,
                        std::size_t width) const {
   require_link(name);

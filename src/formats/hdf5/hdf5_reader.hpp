@@ -10,28 +10,28 @@
 
 namespace hamjet::io::hdf5 {
 
-/// A group of a file together with its place: reading something as what it is not throws
-/// Error(input_output) with file and place, in one line. Sizes are compared with those that the
-/// caller expects, and with the file's, before anything is allocated.
+/// A group of a file together with its place. Reading an object as a type that it does not have
+/// throws Error(input_output) with one line that names file and place. Sizes are compared with
+/// those that the caller expects, and with that of the file, before anything is allocated.
 class Reader {
  public:
-  /// The top of a file. The bytes must outlive the reader.
+  /// The root group of a file. The bytes must outlive the reader.
   Reader(std::string file, std::string_view bytes);
 
-  /// A group below; links that lead elsewhere are refused.
+  /// A group below this one; links that lead elsewhere are refused.
   Reader group(const std::string& name) const;
 
   bool has_attribute(const char* name) const;
   std::string text(const char* name) const;
   std::vector<std::string> texts(const char* name) const;
   double number(const char* name) const;
-  /// Finite numbers of an attribute: `count` of them or, if that is 0, up to 4096.
+  /// Finite numbers of an attribute: `count` of them or, if `count` is 0, up to 4096.
   std::vector<double> numbers(const char* name, std::size_t count = 0) const;
   int integer(const char* name) const;
 
   std::vector<double> doubles(const char* name, const std::vector<hsize_t>& shape) const;
   std::vector<std::uint8_t> bytes(const char* name, const std::vector<hsize_t>& shape) const;
-  /// Texts of fixed length, at most `decimal_width`.
+  /// Texts of fixed length, at most `decimal_width` bytes each.
   std::vector<std::string> decimals(const char* name, const std::vector<hsize_t>& shape) const;
 
   /// Throws `what` about the attribute or dataset `name`, or about the group if `name` is empty.

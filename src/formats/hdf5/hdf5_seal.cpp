@@ -25,7 +25,7 @@ std::string block_of(const FileRecord& record) {
   return block + "\n";
 }
 
-/// The size that a block tells, if it has the writer's form.
+/// The size that a block gives, if it has the form that the writer gives it.
 std::optional<std::uintmax_t> size_in(std::string_view block) {
   FileRecord record;
   const std::string_view text = block.substr(std::min(block.size(), beginning.size() + 6));

@@ -10,7 +10,7 @@
 
 namespace hamjet::io::hdf5 {
 
-/// A file that is written in memory. Objects have no times, so that the same content has the same
+/// A file that is written in memory. Objects carry no times, so that equal content gives equal
 /// bytes. Throws Error(input_output) with the name of the object that cannot be written.
 class Writer {
  public:
@@ -20,7 +20,8 @@ class Writer {
   Handle group(hid_t parent, const std::string& name) const;
   hid_t root() const { return file_; }
 
-  // Attributes of a group or dataset. Texts are UTF-8 of variable length, as h5py reads them best.
+  // Writes attributes of a group or dataset. Texts are UTF-8 of variable length, which h5py reads
+  // best.
   void attribute(hid_t object, const char* name, const std::string& text) const;
   void attribute(hid_t object, const char* name, const std::vector<std::string>& texts) const;
   void attribute(hid_t object, const char* name, double number) const;
@@ -36,7 +37,7 @@ class Writer {
                  std::span<const double> numbers, const Axes& axes) const;
   Handle dataset(hid_t group, const char* name, const std::vector<hsize_t>& shape,
                  std::span<const std::uint8_t> numbers, const Axes& axes) const;
-  /// Texts of fixed length: `decimal_width` bytes each, filled up with zeros.
+  /// Writes texts of fixed length: `decimal_width` bytes each, filled up with zero bytes.
   Handle decimals(hid_t group, const char* name, const std::vector<hsize_t>& shape,
                   const std::string& texts, const Axes& axes) const;
 

@@ -6,9 +6,9 @@
 
 namespace hamjet::io {
 
-/// What stands behind the keyword COMMENT of messages of CCSDS: a text in lines that with it are no
-/// longer than the 254 characters of the standards (502.0-B-3, 7.3.2; 508.0-B-1, 6.3.1), broken at
-/// blanks where there are any.
+/// The text of a comment, broken into lines for CCSDS messages. With the keyword COMMENT no line is
+/// longer than the 254 characters of the standards (502.0-B-3, 7.3.2; 508.0-B-1, 6.3.1). Lines are
+/// broken at blanks where there are any.
 inline std::vector<std::string_view> comment_lines(std::string_view rest) {
   constexpr std::size_t longest = 254 - std::string_view("COMMENT ").size();
   std::vector<std::string_view> lines;

@@ -16,7 +16,7 @@ using Keywords = std::vector<std::string_view>;
 
 constexpr std::string_view cdm_version_keyword = "CCSDS_CDM_VERS";
 
-/// Before the first object (tables 3-1 and 3-2).
+/// Keywords before the first object (tables 3-1 and 3-2).
 const Keywords head_keywords = {"CREATION_DATE",
                                 "ORIGINATOR",
                                 "MESSAGE_FOR",
@@ -42,7 +42,7 @@ const Keywords head_keywords = {"CREATION_DATE",
                                 "COLLISION_PROBABILITY",
                                 "COLLISION_PROBABILITY_METHOD"};
 
-/// Of an object (tables 3-3 and 3-4), without state and covariance.
+/// Keywords of an object (tables 3-3 and 3-4), without state and covariance.
 const Keywords other_object_keywords = {"OBJECT",
                                         "OBJECT_DESIGNATOR",
                                         "CATALOG_NAME",

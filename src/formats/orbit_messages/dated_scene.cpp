@@ -11,7 +11,8 @@
 namespace hamjet::io {
 namespace {
 
-/// A text for messages, which are printable ASCII; other characters become question marks.
+/// A text for orbit messages, which must be printable ASCII; other characters become question
+/// marks.
 std::string ascii(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c < 0x20 || c >= 0x7f; }, '?');

@@ -6,21 +6,23 @@
 #include "hamjet/detail/formats/epoch.hpp"
 #include "hamjet/studies/scene.hpp"
 
-// What messages of different kinds say alike of a scene that has an ephemeris.
+// Statements that messages of different kinds share about a scene that has an ephemeris.
 
 namespace hamjet::io {
 
-/// The present second, UTC.
+/// The present time in UTC, to the second.
 Epoch current_epoch();
 
-/// What wrote a message, of which scene, and what the message is of; printable ASCII.
+/// Which program wrote the message, from which scene, and what the message describes; printable
+/// ASCII.
 std::vector<std::string> origin_comments(const Scene& scene, const std::string& source);
 
-/// By which model states move, in which axes and by which calendar.
+/// The model by which states move, their axes, and the calendar of their dates.
 std::vector<std::string> model_comments(const Scene& scene);
 
-/// The moment of a canonical time. The reader of scenes has checked the scene's own span; a stored
-/// jet may bring another one: throws Error(input_output) for a moment that is not known.
+/// The moment of a canonical time. The reader of scenes has checked the scene's own time span, but
+/// a stored jet may bring another one: throws Error(input_output) for a moment that cannot be
+/// dated.
 Epoch moment_of(const Scene& scene, double time);
 
 }  // namespace hamjet::io

@@ -13,7 +13,7 @@
 namespace hamjet::io {
 namespace {
 
-/// Axes of a CDM that do not rotate; the third that it knows, ITRF, does.
+/// Axes of a CDM that do not rotate; ITRF, the third kind that the standard allows, rotates.
 constexpr std::array<std::string_view, 2> frames = {"GCRF", "EME2000"};
 
 ConjunctionObject object_of(const Scene& scene, const ApproachingSpacecraft& craft,
@@ -71,7 +71,7 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
 ConjunctionDataMessage encounter_message(const Scene& scene, const CollisionResult& result) {
   const UncertainApproach& nearest = *nearest_approach(result);
   const EphemerisSettings& settings = *scene.ephemeris;
-  // A message is of the encounter: where the scene's window cuts the passage, of the whole of it.
+  // A message is about the whole encounter, even where the scene's window cuts the passage.
   const std::array<double, 2> window = result.of_whole_passage
                                            ? std::array{result.whole_from_s, result.whole_to_s}
                                            : std::array{result.from_s, result.to_s};

@@ -9,13 +9,14 @@
 namespace hamjet::io {
 
 /// What a scene or its result lacks for a Conjunction Data Message, as the end of "no message: ";
-/// none if it can be one. A CDM dates in UTC and has axes that the standard knows (CCSDS
-/// 508.0-B-1, tables 3-2 and 3-3).
+/// no value if nothing is lacking. A CDM gives dates in UTC and states in axes that the standard
+/// lists (CCSDS 508.0-B-1, tables 3-2 and 3-3).
 std::optional<std::string> encounter_message_lack(const Scene& scene,
                                                   const CollisionResult& result);
 
-/// The nearest approach of the means as a Conjunction Data Message: states and linear covariances
-/// then, and the probability of the whole window. Nothing must be lacking.
+/// The nearest approach of the means as a Conjunction Data Message: the states and linear
+/// covariances at that time, and the probability over the whole window. Precondition: nothing is
+/// lacking (see encounter_message_lack).
 ConjunctionDataMessage encounter_message(const Scene& scene, const CollisionResult& result);
 
 }  // namespace hamjet::io

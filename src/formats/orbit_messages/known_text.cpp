@@ -43,7 +43,8 @@ std::string_view next_line(std::string_view& text) {
   return line.substr(0, line.find_last_not_of(" \t") + 1);
 }
 
-/// A line of 69 characters that begins with its number and ends with a digit of the sum.
+/// Whether a line has 69 characters, begins with its number and ends with a check digit, as in
+/// two-line elements.
 bool is_element_line(std::string_view line, char number) {
   constexpr std::size_t length = 69;
   return line.size() == length && line[0] == number && line[1] == ' ' && line.back() >= '0' &&
@@ -65,7 +66,7 @@ const KnownText* known_text(std::string_view text) {
                               : lines[0].starts_with(message.version_keyword);
     if (is_it) return &message.text;
   }
-  // A line with the object's name may stand before the two.
+  // A line with the object's name may stand before the two lines.
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     if (is_element_line(lines[i], '1') && is_element_line(lines[i + 1], '2')) {
       return &two_line_elements;

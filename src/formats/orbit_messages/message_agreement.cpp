@@ -14,14 +14,15 @@
 namespace hamjet::io {
 namespace {
 
-/// Names that stand for none.
+/// Placeholders that stand for an unknown name.
 constexpr std::array<std::string_view, 7> placeholders = {"",     "UNKNOWN", "NONE",     "N/A",
                                                           "NULL", "DEPUTY",  "UNDEFINED"};
 
-/// Axes that move with precession or nutation, and are of the moment where no epoch is given.
+/// Axes that move with precession or nutation. Without an epoch, they are those of the state's own
+/// moment.
 constexpr std::array<std::string_view, 4> frames_of_date = {"TOD", "MOD", "TEMEOFDATE", "CIRF"};
 
-/// Axes near those of J2000.
+/// Axes close to those of J2000.
 constexpr std::array<std::string_view, 6> frames_of_J2000 = {"EME2000", "GCRF",  "ICRF",
                                                              "ICRF1",   "ICRF2", "ICRF3"};
 constexpr double angle_of_frame_bias = 1.2e-7;
@@ -34,7 +35,7 @@ bool is_among(const auto& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The angle that may be between the axes of two inertial frames.
+/// The largest possible angle between the axes of two inertial frames.
 double angle_between(const KnownState& one, const KnownState& other) {
   const std::string_view a = name_of_axes(one.reference_frame);
   const std::string_view b = name_of_axes(other.reference_frame);
@@ -43,8 +44,8 @@ double angle_between(const KnownState& one, const KnownState& other) {
                                                                       : angle_of_precession;
 }
 
-/// A state of axes that rotate with the Earth in inertial ones with the same pole, turned about it
-/// until it lies as the other does.
+/// Converts a state in axes that rotate with the Earth to inertial axes with the same pole. The
+/// remaining angle about the pole is chosen so that the state lies as the other one does.
 KnownState without_rotation(KnownState state, const KnownState& other) {
   const Eigen::Vector3d rate(0, 0, earth_rate);
   state.velocity_km_s += rate.cross(state.position_km);
@@ -110,7 +111,8 @@ StateDifference difference_of_states(const KnownState& message, const KnownState
   const KnownState given = is_rotating ? without_rotation(message, scene) : message;
   const double angle = is_rotating ? angle_of_precession : angle_between(message, scene);
   StateDifference difference;
-  // Between axes at an angle the lengths are compared too, which no angle changes.
+  // If the axes differ by an angle, the lengths of the vectors are compared too, because no angle
+  // changes these.
   const auto compare = [&](const Eigen::Vector3d& one, const Eigen::Vector3d& other,
                            double tolerance, double& between, double& most) {
     const double size = other.stableNorm();

@@ -42,13 +42,14 @@ OrbitState orbit_state(const Scene& scene, double time, std::span<const double> 
   OrbitState result{moment_of(scene, time), {}, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     result.position_km[i] = convert<double>(state[i] * length);
-    // The momenta are per unit of mass.
+    // The momenta of an orbit are per unit of mass.
     result.velocity_km_s[i] = convert<double>(state[3 + i] * length / scene.units.time_s);
   }
   return result;
 }
 
-/// Adds states in whatever direction of time; of two within a picosecond the first stays.
+/// Adds states in order of time, whatever the direction in which they are given; of two states
+/// within a picosecond the first one stays.
 void add_states(OrbitEphemerisMessage& message, std::vector<OrbitState> states) {
   std::stable_sort(states.begin(), states.end(),
                    [](const OrbitState& a, const OrbitState& b) { return a.epoch < b.epoch; });
@@ -83,7 +84,8 @@ std::string accuracy_text(const RunResult& run) {
       run.error_by_degree->front());
 }
 
-/// The nominal's state at one moment, with what the messages of its whole motion say too.
+/// The nominal's state at one moment, with the comments that messages of its whole motion also
+/// have.
 OrbitParameterMessage opm_at(const PropagationResult& result, const RunResult& run,
                              std::string_view place, double time,
                              const std::vector<double>& state) {
@@ -128,7 +130,7 @@ OrbitEphemerisMessage nominal_of(const PropagationResult& result, const RunResul
 
 using OfNominal = std::string (*)(const PropagationResult&, const RunResult&);
 
-/// What all formats of messages have in common.
+/// The properties that all formats of messages have in common.
 OutputFormat message_format(std::string_view name, std::string_view help, std::string_view file,
                             OfNominal of_nominal) {
   return {.name = name,
@@ -139,7 +141,7 @@ OutputFormat message_format(std::string_view name, std::string_view help, std::s
           .of_nominal = of_nominal};
 }
 
-/// The same in XML, which a build may lack.
+/// The same properties for XML, which a build may lack.
 OutputFormat xml_format(std::string_view name, std::string_view help, std::string_view file,
                         OfNominal of_nominal) {
   OutputFormat format = message_format(name, help, file, of_nominal);

@@ -7,9 +7,9 @@
 #include "hamjet/studies/transfer.hpp"
 
 // Orbits as Orbit Ephemeris Messages, and their ends as Orbit Parameter Messages: canonical states
-// in km and km/s, canonical times on the calendar. The scene must have an ephemeris. The messages
-// say in comments what they cannot hold. All throw Error(input_output) for a moment outside of the
-// calendar.
+// in km and km/s, canonical times on the calendar. The scene must have an ephemeris. Comments in
+// the messages name what these cannot hold. All functions throw Error(input_output) for a moment
+// outside the calendar.
 
 namespace hamjet::io {
 
@@ -17,21 +17,22 @@ struct OutputFormat;
 
 /// `nominal.oem` of each run.
 extern const OutputFormat oem_format;
-/// `nominal.oem.xml`, the same in XML.
+/// `nominal.oem.xml`, the same ephemeris in XML.
 extern const OutputFormat oem_xml_format;
 
-/// `start.opm` and `end.opm` of each run, the nominal's state at the two ends; asked for together.
+/// `start.opm` and `end.opm` of each run: the nominal's state at both ends. The two are requested
+/// together.
 extern const OutputFormat start_opm_format;
 extern const OutputFormat end_opm_format;
-/// `start.opm.xml` and `end.opm.xml`, the same in XML.
+/// `start.opm.xml` and `end.opm.xml`, the same states in XML.
 extern const OutputFormat start_opm_xml_format;
 extern const OutputFormat end_opm_xml_format;
 
 /// `nominal.oem` of a run: the nominal at the steps of the integrator.
 std::string nominal_oem(const PropagationResult& result, const RunResult& run);
 
-/// `chief.oem` and `deputy.oem`, or in XML, or both, as the scene asks: one each, for a message
-/// holds a single object (CCSDS 502.0-B-3, 5.1.3).
+/// `chief.oem` and `deputy.oem`, in KVN, XML or both, as the scene asks. There is one file for each
+/// spacecraft, because a message holds a single object (CCSDS 502.0-B-3, 5.1.3).
 std::vector<ReportFile> transfer_oems(const TransferResult& result,
                                       const RelativeTrajectory& trajectory);
 

@@ -41,7 +41,7 @@ bool take(std::string_view& text, char c) {
   return true;
 }
 
-/// Month and day, or the day of the year, after the year.
+/// Takes month and day, or the day of the year, which follow the year.
 std::optional<sys_days> take_day(std::string_view& text) {
   const auto years = take_number(text, 4);
   if (!years || *years < 1 || !take(text, '-')) return std::nullopt;
@@ -133,7 +133,8 @@ std::string format_epoch(const Epoch& epoch) {
 }
 
 std::optional<Epoch> later(const Epoch& epoch, const Extended& seconds) {
-  // Whatever the epoch, so many seconds lead beyond the calendar; NaN does too.
+  // This many seconds lead beyond the calendar from any epoch; the comparison is written so that
+  // NaN is refused too.
   if (!(abs(seconds) < Extended(seconds_per_day) * (last_day - first_day).count())) {
     return std::nullopt;
   }

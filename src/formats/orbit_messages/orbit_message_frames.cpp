@@ -8,14 +8,14 @@
 namespace hamjet::io {
 namespace {
 
-/// Axes fixed among the stars, or moving among them with precession and nutation only, that is by
-/// some 1e-11 rad/s. Source: SANA registry of celestial body reference frames, which CCSDS
-/// 502.0-B-3, annex B4 refers to, and the names that older messages have.
+/// Names of axes that are fixed among the stars, or move with precession and nutation only, by some
+/// 1e-11 rad/s. Source: SANA registry of celestial body reference frames, which CCSDS 502.0-B-3,
+/// annex B4 refers to, and the names that older messages use.
 const std::vector<std::string_view> inertial_frames = {
     "TOD",  "EME2000", "J2000", "ICRF", "ICRF1", "ICRF2",      "ICRF3",
     "GCRF", "MOD",     "TEME",  "CIRF", "B1950", "TEMEOFDATE", "TEMEOFEPOCH"};
 
-/// How the names of frames begin that turn with a body or with an orbit.
+/// The beginnings of names of frames that rotate with a body or with an orbit.
 const std::vector<std::string_view> rotating_beginnings = {
     "ITRF", "TIRF", "GTOD", "GRC", "EFG", "ECEF", "TDR", "PEF", "WGS", "IGS",
     "DTRF", "RTN",  "RSW",  "QSW", "TNW", "LVLH", "NTW", "RIC", "VVLH"};

@@ -18,7 +18,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
 }
 
-/// What a mandatory keyword must have, for the message that it is missing.
+/// What the value of a mandatory keyword must be, for the message that the keyword is missing.
 constexpr std::string_view any_text = "a text";
 
 }  // namespace
@@ -37,7 +37,7 @@ MessageLines::MessageLines(const std::string& name, std::string_view text, std::
   }
 }
 
-/// The next line's text without blanks around it, with its number.
+/// Takes the next line's text, without blanks around it, and its number.
 bool MessageLines::take_statement(MessageLine& line) {
   line = {};
   if (next_statement_ < statements_.size()) {
@@ -76,7 +76,7 @@ void MessageLines::check_characters(std::size_t line, std::string_view text) con
 
 bool MessageLines::next(MessageLine& line) {
   while (take_statement(line)) {
-    // Comments may be in any language; nothing depends on them.
+    // Comments may be in any language, because nothing depends on them.
     if (line.text.empty() || line.is_comment()) continue;
     const std::size_t equals = line.text.find('=');
     line.is_assignment = equals != std::string_view::npos;

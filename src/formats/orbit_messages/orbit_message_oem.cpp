@@ -162,8 +162,8 @@ class OemReader {
     return *number;
   }
 
-  /// Covariances, each the six rows of a lower triangle behind its epoch, and its frame where
-  /// that is another one than the states'.
+  /// Reads covariances. Each has an epoch, its frame if that differs from the frame of the states,
+  /// and the six rows of a lower triangle.
   void read_covariances(EphemerisSegment& segment) {
     const std::size_t begin = line_.number;
     std::optional<OrbitCovariance> covariance;
@@ -241,7 +241,7 @@ class OemReader {
   MessageLines lines_;
   MessageLine line_;
   bool has_line_ = false;
-  Epoch start_;  ///< of the block that is read
+  Epoch start_;  ///< start of the block that is being read
   Epoch stop_;
   std::vector<std::string_view> fields_;
 };

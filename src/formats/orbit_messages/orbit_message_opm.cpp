@@ -29,7 +29,7 @@ std::vector<std::string_view> all_keywords() {
   return keywords;
 }
 
-/// The covariance, of which the standard wants all 21 numbers or none.
+/// The covariance; the standard demands either all 21 numbers or none.
 std::optional<OrbitCovariance> covariance_of(const MessageBlock& block,
                                              const OrbitParameterMessage& message) {
   const std::vector<Quantity>& quantities = covariance_quantities();
@@ -51,8 +51,8 @@ std::optional<OrbitCovariance> covariance_of(const MessageBlock& block,
   return covariance;
 }
 
-/// Keplerian elements, where all six are there and right; what is wrong with them is no reason to
-/// refuse the state.
+/// Keplerian elements, if all six are present and valid. A fault in them is no reason to refuse the
+/// state.
 std::optional<OrbitElements> elements_of(const MessageBlock& block,
                                          std::vector<std::string>& doubts) {
   OrbitElements elements;
@@ -90,7 +90,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
                  "EPOCH, so that manoeuvres are not flown, and the motion would not be that of "
                  "the message");
     }
-    // The standard knows these of an OEM alone, and yet some programs write them.
+    // By the standard these keywords belong to an OEM only, but some programs write them.
     if (line.is("META_START") || line.is("META_STOP")) continue;
     if (line.is_assignment && line.keyword.starts_with("USER_DEFINED_")) {
       has_user_defined = true;

@@ -17,7 +17,7 @@ void write_comments(std::back_insert_iterator<fmt::memory_buffer> out,
   }
 }
 
-/// The header, which both kinds of messages have.
+/// Writes the header, which both kinds of messages have.
 template <class Message>
 void write_header(std::back_insert_iterator<fmt::memory_buffer> out, std::string_view keyword,
                   const Message& message) {
@@ -27,7 +27,7 @@ void write_header(std::back_insert_iterator<fmt::memory_buffer> out, std::string
                  message.originator);
 }
 
-/// The object, centre, frame and time system, in the order of the standard.
+/// Writes object, centre, frame and time system, in the order of the standard.
 void write_metadata(std::back_insert_iterator<fmt::memory_buffer> out,
                     const OrbitMetadata& metadata) {
   fmt::format_to(out,

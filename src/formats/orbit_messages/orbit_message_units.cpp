@@ -61,7 +61,7 @@ const std::vector<Quantity>& covariance_quantities() {
 
 std::string_view unit_of_keyword(std::string_view keyword) {
   static const std::map<std::string_view, std::string_view> units = [] {
-    // Accelerations have keywords in XML alone.
+    // Accelerations have keywords only in XML.
     std::map<std::string_view, std::string_view> result = {
         {"X_DDOT", "km/s**2"}, {"Y_DDOT", "km/s**2"}, {"Z_DDOT", "km/s**2"}};
     for (const Quantity& quantity : state_quantities())

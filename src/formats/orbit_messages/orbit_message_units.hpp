@@ -3,14 +3,14 @@
 #include <string_view>
 #include <vector>
 
-// The keywords of orbit messages that are numbers, with their units (CCSDS 502.0-B-3, tables 3-3
-// and 5-3, and 8.2).
+// The keywords of orbit messages whose values are numbers, with their units (CCSDS 502.0-B-3,
+// tables 3-3 and 5-3, and 8.2).
 
 namespace hamjet::io {
 
 struct Quantity {
   std::string_view keyword;
-  std::string_view unit;  ///< empty: none
+  std::string_view unit;  ///< empty for no unit
 };
 
 /// A part of an OPM that is checked and not used.

@@ -15,21 +15,21 @@ namespace {
 
 using Node = pugi::xml_node;
 
-/// Position and velocity, and acceleration where there is one, in the order of the standard.
+/// Elements of position, velocity and optional acceleration, in the order of the standard.
 constexpr std::array<std::string_view, 10> state_elements = {
     "EPOCH", "X", "Y", "Z", "X_DOT", "Y_DOT", "Z_DOT", "X_DDOT", "Y_DDOT", "Z_DDOT"};
 constexpr std::size_t without_acceleration = 7;
 
-/// What the data of an OPM consist of; all of them are keywords in the other notation.
+/// The parts of the data of an OPM; all elements in them are keywords in the other notation.
 const std::vector<std::string_view> parts_of_opm = {
     "stateVector",      "keplerianElements",  "spacecraftParameters",
     "covarianceMatrix", "maneuverParameters", "userDefinedParameters"};
 const std::vector<std::string_view> parts_of_oem = {"stateVector", "covarianceMatrix"};
-/// And of an object of a CDM.
+/// The parts of an object of a CDM.
 const std::vector<std::string_view> parts_of_cdm = {"odParameters", "additionalParameters",
                                                     "stateVector", "covarianceMatrix"};
 
-/// What a combined message consists of (CCSDS 505.0-B-3, section 4.3).
+/// The elements of a combined message (CCSDS 505.0-B-3, section 4.3).
 const std::vector<std::string_view> names_in_ndm = {"MESSAGE_ID", "acm", "aem", "apm", "cdm", "ocm",
                                                     "oem",        "omm", "opm", "rdm", "tdm"};
 
@@ -39,7 +39,7 @@ class XmlReader {
     for (std::size_t i = text.find('\n'); i != text.npos; i = text.find('\n', i + 1)) {
       ends_of_lines_.push_back(i);
     }
-    // Entities that a document defines itself are not known to the library, and not expanded.
+    // The library does not know entities that a document defines itself, and does not expand them.
     const pugi::xml_parse_result result =
         document_.load_buffer(text.data(), text.size(),
                               pugi::parse_default | pugi::parse_trim_pcdata, pugi::encoding_utf8);
@@ -55,7 +55,7 @@ class XmlReader {
     const std::string_view kind = root.name();
     const bool is_known = kind == "ndm" || std::find(names_in_ndm.begin() + 1, names_in_ndm.end(),
                                                      kind) != names_in_ndm.end();
-    // The file may be any other, whose content is nobody's business.
+    // The file may be any other file, whose content must not appear in messages.
     if (!is_known) {
       fail_at(
           line_of(root.offset_debug()), "",
@@ -96,7 +96,7 @@ class XmlReader {
                        message.attribute("version").value());
   }
 
-  /// The messages of a kind in a combined one, which may have others.
+  /// The messages of one kind in a combined message, which may also have others.
   std::vector<Node> messages_of(Node combined, std::string_view wanted) const {
     std::vector<Node> found;
     for (const Node child : children(combined, names_in_ndm)) {
@@ -115,7 +115,7 @@ class XmlReader {
     return found;
   }
 
-  /// The header of the first message stands for all.
+  /// The header of the first message is taken for all.
   void read_message(Node message, bool is_first) {
     if (is_first) add(message, version_of(message));
     const std::vector<Node> parts = children(message, {"header", "body"});
@@ -132,7 +132,7 @@ class XmlReader {
     for (const Node segment : segments) read_segment(segment);
   }
 
-  /// What both objects have in common, and a segment for each.
+  /// Reads the part that both objects share, and a segment for each object.
   void read_conjunction(Node body) {
     const std::vector<Node> parts = children(body, {"relativeMetadataData", "segment"});
     const auto is_segment = [](Node part) { return std::string_view(part.name()) == "segment"; };
@@ -156,8 +156,8 @@ class XmlReader {
     statements_.push_back({line_of(node.offset_debug()), std::move(text), std::move(unit)});
   }
 
-  /// The elements within one that holds elements alone, without comments; all names must be among
-  /// `names`, unless that is empty.
+  /// The child elements of an element that has only elements, without comments. All names must be
+  /// among `names`, unless that is empty.
   std::vector<Node> children(Node parent, const std::vector<std::string_view>& names) const {
     std::vector<Node> found;
     for (const Node child : parent) {
@@ -176,7 +176,7 @@ class XmlReader {
     return found;
   }
 
-  /// The text of an element that holds no others.
+  /// The text of an element without child elements.
   std::string leaf_text(Node leaf) const {
     const Node child = leaf.first_child();
     if (child.type() == pugi::node_element || child != leaf.last_child()) {
@@ -185,7 +185,7 @@ class XmlReader {
     return leaf.text().get();
   }
 
-  /// The same of a number in a row, whose unit must be the standard's if it says one.
+  /// The text of a number in a row. If a unit is given, it must be that of the standard.
   std::string number_text(Node leaf) const {
     if (const pugi::xml_attribute units = leaf.attribute("units")) {
       const std::string_view right = unit_of_keyword(leaf.name());
@@ -197,7 +197,7 @@ class XmlReader {
     return leaf_text(leaf);
   }
 
-  /// Whoever reads the value judges the unit.
+  /// The unit is judged by the code that reads the value.
   void add_leaf(Node leaf) {
     const std::string_view name = leaf.name();
     const bool is_own = name == "USER_DEFINED";
@@ -263,11 +263,11 @@ class XmlReader {
     add(state, std::move(line));
   }
 
-  /// The numbers as the rows of a lower triangle.
+  /// Adds the numbers as rows of a lower triangle.
   void add_covariance(Node matrix) {
     std::string row;
     std::size_t numbers = 0;
-    std::size_t ends = 1;  // of the row, among all numbers
+    std::size_t ends = 1;  // number of the row's last element, among all numbers
     for (const Node leaf : children(matrix, {})) {
       const std::string text = number_text(leaf);
       if (unit_of_keyword(leaf.name()).empty()) {

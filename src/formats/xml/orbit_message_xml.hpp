@@ -12,30 +12,30 @@
 
 namespace hamjet::io {
 
-/// What an element of a message says, as a line of the keyword = value notation would.
+/// The content of an element of a message, like a line in keyword = value notation.
 struct XmlStatement {
-  std::size_t line = 0;  ///< of the element
+  std::size_t line = 0;  ///< line of the element
   std::string text;
-  std::string unit = {};  ///< of a keyword's value, where the element says one
+  std::string unit = {};  ///< unit of a keyword's value, where the element gives one
 };
 
 /// Whether this build reads XML.
 bool is_xml_built();
 
-/// The statements of an OEM, OPM or CDM in XML, in order, so that whoever reads the other notation
-/// reads this one with the same checks. `kind` is the message that is wanted, "oem", "opm" or
-/// "cdm": of a combined message (ndm) the one of this kind is taken, and of several OEM all
-/// segments together. Of a message of another kind the statement of its version is all there is.
-/// Throws Error(input_output), `name:line: element: problem`, for what is no XML, for another root,
-/// for elements where the standard has none of that name or that are out of the order that it has,
-/// and in the states and covariances of an OEM for units other than the standard's; and in a build
-/// without XML for everything.
+/// The statements of an OEM, OPM or CDM in XML, in order, so that the readers of the other notation
+/// read this one with the same checks. `kind` is the wanted message, "oem", "opm" or "cdm". In a
+/// combined message (ndm) the message of this kind is taken and, of several OEM, all segments
+/// together. For a message of another kind, only the statement of its version is returned. Throws
+/// Error(input_output), `name:line: element: problem`, for a text that is not XML, for another root
+/// element, for elements that the standard does not have in their place or in their order, and, in
+/// the states and covariances of an OEM, for units other than the standard's. In a build without
+/// XML it throws for every text.
 std::vector<XmlStatement> statements_of_xml(const std::string& name, std::string_view text,
                                             std::string_view kind);
 
-/// An OEM, and an OPM of the state alone, in XML, with the schema's order and units; numbers have
-/// the digits of oem_text and opm_text, so that what is read back is what is read of those. Throw
-/// Error(usage) in a build without XML.
+/// Write an OEM, and an OPM of the state alone, in XML, with the order and units of the schema.
+/// Numbers have the digits of oem_text and opm_text, so that reading either notation gives the
+/// same. In a build without XML they throw Error(usage).
 std::string oem_xml(const OrbitEphemerisMessage& message);
 std::string opm_xml(const OrbitParameterMessage& message);
 

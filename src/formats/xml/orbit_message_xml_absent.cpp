@@ -3,7 +3,7 @@
 #include "hamjet/error.hpp"
 #include "orbit_message_xml.hpp"
 
-// A build without XML.
+// Replaces the other files of this folder in a build without XML.
 
 namespace hamjet::io {
 

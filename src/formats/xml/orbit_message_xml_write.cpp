@@ -14,7 +14,7 @@ namespace {
 
 using Node = pugi::xml_node;
 
-/// An element that holds a text; the text is escaped when it is printed.
+/// Adds an element that holds a text; the text is escaped when it is printed.
 Node add(Node parent, const char* name, const std::string& text) {
   Node leaf = parent.append_child(name);
   leaf.text().set(text.c_str());
@@ -25,7 +25,7 @@ void add_comments(Node parent, const std::vector<std::string>& comments) {
   for (const std::string& comment : comments) add(parent, "COMMENT", comment);
 }
 
-/// A document with its root, and the header, which both kinds of messages have.
+/// Makes a document with its root and the header that both kinds of messages have.
 template <class Message>
 Node begin(pugi::xml_document& document, const char* kind, const char* keyword,
            const Message& message) {
@@ -45,7 +45,7 @@ Node begin(pugi::xml_document& document, const char* kind, const char* keyword,
   return root;
 }
 
-/// The object, centre, frame and time system, in the order of the standard.
+/// Adds object, centre, frame and time system, in the order of the standard.
 void add_metadata(Node parent, const OrbitMetadata& metadata) {
   add(parent, "OBJECT_NAME", metadata.object_name);
   add(parent, "OBJECT_ID", metadata.object_id);

@@ -104,8 +104,8 @@ void validate(const EnergyConservingProblem<Real>& problem) {
   }
 }
 
-/// The end of a step of size h that disregards the energy: there the condition of a stop is looked
-/// at.
+/// The end of a step of size h by which the energy is ignored; the condition of a stop is evaluated
+/// there.
 template <class Real>
 std::vector<Real> step_ahead(const DynamicalSystem& system, const std::vector<Real>& z,
                              const Real& h) {
@@ -156,7 +156,7 @@ EnergyConservingStop make_stop(const EnergyConservingProblem<Real>& problem,
   stop.time = static_cast<double>(time);
   stop.condition = here;
   const double distance = here / (here - ahead);
-  // The size of a first step that is too large tells nothing of what lies ahead.
+  // If the first step is too large, its size gives no distance to a change of sign.
   if (step > 0 && std::isfinite(distance)) stop.steps_to_sign_change = distance;
   stop.message =
       fmt::format("energy-conserving {}: step {} at t = {:.10g}: {}{}", method_name(problem.method),

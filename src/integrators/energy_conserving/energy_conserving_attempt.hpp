@@ -8,15 +8,17 @@
 
 namespace hamjet {
 
-/// What the equation of one step gave: the step, or why there is none.
+/// The result of the equation of one step: the step, or the reason why there is none.
 template <class Real>
 struct StepAttempt {
   bool is_taken = false;
   Real size = 0;
   std::vector<Real> end;
   int iterations = 0;
-  EnergyConservingStopCause cause = EnergyConservingStopCause::no_root;  ///< if not taken
-  std::string reason;  ///< if not taken: with numbers, but without step and time
+  EnergyConservingStopCause cause =
+      EnergyConservingStopCause::no_root;  ///< cause, if the step was not taken
+  std::string
+      reason;  ///< if the step was not taken, the reason with numbers, but without step and time
 };
 
 template <class Real>
@@ -30,7 +32,7 @@ StepAttempt<Real> refused(EnergyConservingStopCause cause, std::string reason) {
 inline constexpr const char* not_finite_reason =
     "the Hamiltonian is not finite (a collision, or a point outside its domain)";
 
-/// Round-off may change a step size by this much of itself before it counts as undetermined.
+/// If round-off may change a step size by more than this fraction, the size counts as undetermined.
 inline constexpr double largest_step_uncertainty = 0.01;
 
 }  // namespace hamjet

@@ -17,7 +17,7 @@
 namespace hamjet {
 
 /// The step equations of the energy-conserving midpoint form, for the half step u = z_m - z_k and
-/// the step size h, f = J grad H:
+/// the step size h, with f = J grad H:
 ///
 ///   u - (h/2) f(z_k + u) = 0,   H(z_k + u) - E = 0 .
 ///
@@ -41,14 +41,14 @@ class EnergyConservingMidpoint {
 
   const Real& energy() const { return energy_; }
 
-  /// The first step, of given size, whose discrete energy is conserved from then on.
+  /// The first step, of given size; its discrete energy is conserved from then on.
   StepAttempt<Real> start(const std::vector<Real>& z, const Real& h) {
     Trial trial = explicit_trial(z, h);
     if (!is_finite(trial.half.sum())) {
       return refused<Real>(EnergyConservingStopCause::not_finite, not_finite_reason);
     }
     const Vector explicit_half = trial.half;
-    // A solution far from the explicit step is not the one that starts at h = 0.
+    // A solution far from the explicit step does not belong to the curve that starts at h = 0.
     if (!solve(z, trial, false) ||
         !((trial.half - explicit_half).norm() <= explicit_half.norm() / 2)) {
       return refused<Real>(
@@ -62,13 +62,13 @@ class EnergyConservingMidpoint {
     return taken(z, trial);
   }
 
-  /// The step that follows one of size `last`.
+  /// The step that follows a step of size `last`.
   StepAttempt<Real> advance(const std::vector<Real>& z, const Real& last) {
     Trial trial = explicit_trial(z, last);
     if (!is_finite(trial.half.sum())) {
       return refused<Real>(EnergyConservingStopCause::not_finite, not_finite_reason);
     }
-    if (trial.half.norm() == 0) return undetermined(trial);  // an equilibrium
+    if (trial.half.norm() == 0) return undetermined(trial);  // the state is an equilibrium
     const bool is_solved = solve(z, trial, true);
     if (is_solved && !is_determined(trial)) return undetermined(trial);
     if (!is_solved || !continues(trial, last)) {
@@ -84,7 +84,7 @@ class EnergyConservingMidpoint {
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
   static constexpr int largest_iteration_count = 30;
-  static constexpr int search_intervals = 64;  ///< on either side of the last step size
+  static constexpr int search_intervals = 64;  ///< number on either side of the last step size
   static constexpr int bisections = 60;
 
   /// A half step and its size.
@@ -119,7 +119,7 @@ class EnergyConservingMidpoint {
     return attempt;
   }
 
-  /// Whether round-off in H, which moves h by itself over dH/dh, leaves h known.
+  /// Whether h is known: round-off in H changes h by itself divided by dH/dh.
   bool is_determined(const Trial& trial) const {
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     const Real change = magnitude(Real(trial.slope * trial.size));
@@ -135,15 +135,15 @@ class EnergyConservingMidpoint {
                     static_cast<double>(trial.size)));
   }
 
-  /// Whether a root is the one that continues the last step size.
+  /// Whether a root continues the last step size.
   bool continues(const Trial& trial, const Real& last) const {
     const Real ratio = trial.size / last;
     return ratio > 0 && ratio <= Real(largest_step_change) &&
            Real(1) / ratio <= Real(largest_step_change) && trial.slope * slope_sign_ > 0;
   }
 
-  /// Newton's method, in the half step alone where the size is given. It ends at round-off in both
-  /// equations, where the residual no longer shrinks.
+  /// Newton's method, for the half step alone if the size is given. It ends when the residuals of
+  /// both equations are round-off and no longer shrink.
   bool solve(const std::vector<Real>& z, Trial& trial, bool is_size_free) {
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     const Real given = trial.size;
@@ -171,7 +171,7 @@ class EnergyConservingMidpoint {
         const Real change = (gradient_product(correction) - trial.excess) / trial.slope;
         trial.size += change;
         trial.half += tangent_ * change;
-        // Far from the last size Newton's method is after another root.
+        // Far from the last size Newton's method converges to another root.
         if (!(trial.size / given > 0) || trial.size / given > 4) return false;
       }
       trial.half -= correction;
@@ -179,7 +179,8 @@ class EnergyConservingMidpoint {
     return false;
   }
 
-  /// Residuals, A and the tangent u' at a trial; false if not finite or A is singular.
+  /// The residuals, A and the tangent u' at a trial. Returns false if they are not finite or A is
+  /// singular.
   bool linearise(const std::vector<Real>& z, Trial& trial) {
     for (std::size_t i = 0; i < z.size(); ++i) {
       mean_[i] = z[i] + trial.half(static_cast<Eigen::Index>(i));
@@ -198,7 +199,7 @@ class EnergyConservingMidpoint {
       }
     }
     factors_.compute(matrix_);
-    // The curve u(h) starts at A = I and turns back where A is singular.
+    // The curve u(h) starts with A = I and turns back where A is singular.
     if (!(factors_.determinant() > 0)) return false;
     tangent_ = factors_.solve(half_field_);
     trial.slope = gradient_product(tangent_);
@@ -289,7 +290,7 @@ class EnergyConservingMidpoint {
   Real scale_ = 0;
   Real energy_ = 0;
   int slope_sign_ = -1;
-  std::optional<Real> closest_;  ///< the H(z_m) - E nearest to 0 in the last search
+  std::optional<Real> closest_;  ///< the value of H(z_m) - E nearest to 0 in the last search
 };
 
 }  // namespace hamjet

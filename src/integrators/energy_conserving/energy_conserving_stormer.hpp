@@ -12,13 +12,13 @@
 
 namespace hamjet {
 
-/// The step equation of the energy-conserving Störmer form. With g = grad V(q_k), v = M^-1 p_k,
-/// b = v . g = dV/dt, a = g^T M^-1 g and c = H(q_k, p_k) - E = V(q_k) - V(q_(k-1)),
+/// The step equation of the energy-conserving Störmer form. With g = grad V(q_k), v = M^-1 p_k, b =
+/// v . g = dV/dt, a = g^T M^-1 g and c = H(q_k, p_k) - E = V(q_k) - V(q_(k-1)),
 ///
 ///   H(q_k, p_k - h g) - E = a h^2 / 2 - b h + c = 0 .
 ///
-/// A consistent step has h near c/b, so the wanted root is the smaller one, 2 c / (b +- sqrt(d))
-/// with the sign of b, d = b^2 - 2 a c.
+/// A consistent step has h near c/b. The wanted root is therefore the smaller one, 2 c / (b +-
+/// sqrt(d)) with the sign of b and d = b^2 - 2 a c.
 template <class Real>
 class EnergyConservingStormer {
  public:
@@ -32,7 +32,7 @@ class EnergyConservingStormer {
 
   const Real& energy() const { return energy_; }
 
-  /// The first step, of given size, whose discrete energy is conserved from then on.
+  /// The first step, of given size; its discrete energy is conserved from then on.
   StepAttempt<Real> start(const std::vector<Real>& z, const Real& h) {
     if (!read(z)) {
       return refused<Real>(EnergyConservingStopCause::not_finite, not_finite_reason);
@@ -42,7 +42,7 @@ class EnergyConservingStormer {
     return attempt;
   }
 
-  /// The step that follows one of size `last`.
+  /// The step that follows a step of size `last`.
   StepAttempt<Real> advance(const std::vector<Real>& z, const Real& last) {
     using Cause = EnergyConservingStopCause;
     using std::sqrt;
@@ -100,7 +100,7 @@ class EnergyConservingStormer {
  private:
   static constexpr int largest_iteration_count = 10;
 
-  /// Evaluates g, a and b at z; false if one is not finite.
+  /// Evaluates g, a and b at z; returns false if one is not finite.
   bool read(const std::vector<Real>& z) {
     hamiltonian_.evaluate(z);
     a_ = b_ = 0;
@@ -115,7 +115,8 @@ class EnergyConservingStormer {
     return is_finite(a_) && is_finite(b_) && hamiltonian_.is_finite();
   }
 
-  /// Newton's method on the discrete energy itself: the quadratic's root is only as good as c.
+  /// Newton's method on the discrete energy itself, because the root of the quadratic is only as
+  /// accurate as c.
   StepAttempt<Real> polish(const std::vector<Real>& z, Real h, const Real& scale) {
     const Real epsilon = std::numeric_limits<Real>::epsilon();
     StepAttempt<Real> attempt = take(z, h);
@@ -126,7 +127,7 @@ class EnergyConservingStormer {
       StepAttempt<Real> next = take(z, corrected);
       next.iterations = attempt.iterations + 1;
       const Real remaining = hamiltonian_.value(0) - energy_;
-      if (!(magnitude(remaining) < magnitude(residual))) {  // at the rounding floor
+      if (!(magnitude(remaining) < magnitude(residual))) {  // the residual is at the rounding floor
         attempt.iterations = next.iterations;
         break;
       }
@@ -137,7 +138,7 @@ class EnergyConservingStormer {
     return attempt;
   }
 
-  /// Takes the step of size h from z, where g was read; H is evaluated at (q_k, p_(k+1)).
+  /// Takes the step of size h from z, for which g has been read; H is evaluated at (q_k, p_(k+1)).
   StepAttempt<Real> take(const std::vector<Real>& z, const Real& h) {
     StepAttempt<Real> attempt;
     attempt.is_taken = true;
@@ -152,7 +153,7 @@ class EnergyConservingStormer {
     return attempt;
   }
 
-  /// The slope dH/dh = -g . dH/dp at (q_k, p_(k+1)), where H was evaluated last.
+  /// The slope dH/dh = -g . dH/dp at (q_k, p_(k+1)), where H was last evaluated.
   Real energy_slope() const {
     Real sum = 0;
     for (std::size_t i = 0; i < n_; ++i) sum -= slope_[i] * hamiltonian_.derivative(0, n_ + i);

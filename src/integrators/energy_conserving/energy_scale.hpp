@@ -7,8 +7,8 @@
 
 namespace hamjet {
 
-/// The size of the terms that a Hamiltonian's value is made of, for judging round-off: the energy
-/// itself and each variable times its derivative. `hamiltonian` was evaluated at z.
+/// The size of the terms of a Hamiltonian's value, by which round-off is judged: the energy itself
+/// and each variable times its derivative. `hamiltonian` must have been evaluated at z.
 template <class Real>
 Real energy_scale(const DifferentiableFunction<Real>& hamiltonian, const std::vector<Real>& z) {
   Real scale = magnitude(hamiltonian.value(0));

@@ -7,22 +7,23 @@
 
 namespace hamjet {
 
-/// Follows the sizes of the changes of a fixed-point iteration, relative to what changes.
+/// Follows the changes of a fixed-point iteration, relative to the size of the iterate.
 template <class Real>
 class Contraction {
  public:
   enum Outcome {
     goes_on,
-    converged,    ///< all changes to come add up to less than may be left
-    is_rounding,  ///< and the last change too was rounding alone
+    converged,    ///< all further changes add up to less than the allowed remainder
+    is_rounding,  ///< in addition, the last change was rounding alone
     fails
   };
 
-  /// The part of a rounding that may be left: it has the same sign in every step, so that half a
-  /// rounding would make the energy drift (Hairer, McLachlan and Razakarivony, BIT 48 (2008) 231).
+  /// The allowed remainder, as a fraction of a rounding error. The remainder has the same sign in
+  /// every step, so that half a rounding error would make the energy drift (Hairer, McLachlan and
+  /// Razakarivony, BIT 48 (2008) 231).
   static constexpr double largest_remainder = 0x1p-12;
 
-  /// What the iteration is for may contract what is left once more.
+  /// `contracts_once_more` says that the use of the result contracts the remainder once more.
   explicit Contraction(bool contracts_once_more = false)
       : contracts_once_more_(contracts_once_more) {}
 
@@ -32,11 +33,12 @@ class Contraction {
     previous_ = size;
     if (size == 0 && count_ > 0) return is_rounding;
     if (!(size <= before * slowest)) {
-      // Changes that no longer shrink are rounding, if they are no larger than that.
+      // Changes that no longer shrink are rounding, provided that they are as small as rounding.
       if (size <= 2 * epsilon) return is_rounding;
       if (++stalls_ > most_stalls) return fails;
     } else if (count_ > 0) {
-      // All changes to come add up to size^2 / (before - size), by the contraction of this one.
+      // By the contraction of this iteration, all further changes add up to size^2 / (before -
+      // size).
       const Real left = contracts_once_more_ ? Real(size * Real(size / before)) : size;
       if (left * size <= largest_remainder * epsilon * (before - size)) return converged;
     }
@@ -50,11 +52,11 @@ class Contraction {
   bool contracts_once_more_;
   int count_ = 0;
   int stalls_ = 0;
-  Real previous_ = std::numeric_limits<Real>::max();  ///< none yet
+  Real previous_ = std::numeric_limits<Real>::max();  ///< no change yet
 };
 
-/// The inverse of the largest magnitude of the lanes of two packs, which changes count relative to;
-/// zero where both vanish.
+/// The inverse of the largest magnitude in the lanes of two packs, relative to which changes count;
+/// zero if both vanish.
 template <class Real, int Lanes>
 Pack<Real, Lanes> inverse_scale(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   const Real scale =
@@ -62,8 +64,8 @@ Pack<Real, Lanes> inverse_scale(const Pack<Real, Lanes>& a, const Pack<Real, Lan
   return Pack<Real, Lanes>(scale > 0 ? Real(1 / scale) : Real(0));
 }
 
-/// Whether all numbers are finite; the changes of an iteration do not show a NaN, which the
-/// machine's maximum skips.
+/// Whether all numbers are finite. The changes of an iteration do not show a NaN, because the
+/// machine's maximum skips it.
 template <class Packs>
 bool are_finite(const Packs& packs) {
   for (const auto& pack : packs) {

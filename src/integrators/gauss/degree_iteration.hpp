@@ -15,16 +15,16 @@ namespace hamjet {
 ///
 ///   Y = known + W Dg Y ,   known = base + W R ,
 ///
-/// of steps that are not stiff and for monomials that are too few for a factorisation. The
-/// monomials' iterations go side by side, for each operation of one of them waits for the one
-/// before. `Components` is their number, or 0 for as many as there are.
+/// for steps that are not stiff and for too few monomials to be worth a factorisation. Several
+/// monomials are iterated side by side, because within one of them each operation waits for the one
+/// before. `Components` is the number of components, or 0 if it is known at run time only.
 template <class Real, int Lanes, std::size_t Components, std::size_t Width>
 class DegreeIteration {
  public:
   using P = Pack<Real, Lanes>;
   template <std::size_t Count>
   using Packs = std::conditional_t<Components == 0, std::vector<P>, std::array<P, Count>>;
-  /// The component c of the monomial t stands at c Width + t.
+  /// Component c of monomial t stands at c Width + t.
   using Numbers = Packs<Components * Width>;
   /// Dg_(c, k) at c Components + k.
   using Gradient = Packs<Components * Components>;
@@ -43,15 +43,16 @@ class DegreeIteration {
   Numbers known;      ///< to be set by the caller
   Numbers stages;     ///< the solution
 
-  /// False where the iteration does not contract.
+  /// Returns false if the iteration does not contract.
   bool solve() {
     stages = known;
     replace();
     set_scale();
     Contraction<Real> contraction;
     while (true) {
-      // Judging takes as long as iterating: every second time will do. The contraction that is seen
-      // is that of two, so that what is left is up to one change more than is told.
+      // Judging takes as long as iterating, so that only every second iteration is judged. The
+      // contraction that is seen is that of two iterations, so that the remainder may be larger
+      // than reported by one change.
       replace();
       const auto outcome = contraction.judge(replace_and_compare());
       if (outcome == Contraction<Real>::goes_on) continue;
@@ -62,7 +63,7 @@ class DegreeIteration {
  private:
   std::size_t components() const { return Components == 0 ? system_.components() : Components; }
 
-  /// Sets moved_ = W Dg Y. Always inlined, so that the numbers stay in registers.
+  /// Sets moved_ = W Dg Y. The function is always inlined, so that the numbers stay in registers.
   [[gnu::always_inline]] void move() {
     const std::size_t m = components();
     for (std::size_t c = 0; c < m; ++c) {
@@ -84,7 +85,7 @@ class DegreeIteration {
     for (std::size_t i = 0; i < stages.size(); ++i) stages[i] = known[i] + moved_[i];
   }
 
-  /// The same; returns the largest change.
+  /// Replaces the stages and returns the largest change.
   Real replace_and_compare() {
     move();
     P largest(Real(0));
@@ -96,8 +97,8 @@ class DegreeIteration {
     return largest_magnitude(largest);
   }
 
-  /// Changes count relative to the largest of a component's stages, or of the terms that they are
-  /// sums of.
+  /// Changes count relative to the largest stage of a component, or to the largest term of the sum
+  /// that gives the stage.
   void set_scale() {
     for (std::size_t i = 0; i < stages.size(); ++i) {
       inverse_scale_[i] = inverse_scale(stages[i], known[i]);

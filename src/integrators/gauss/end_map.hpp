@@ -8,42 +8,42 @@
 
 namespace hamjet {
 
-/// What a step adds to the coefficients of a degree, without the slopes: for a second-order system
-/// of unit mass, with F_d = R_d + Dg Y_d and Y_d = K R_d + B z_d (StageSystem),
+/// The increment of the coefficients of a degree in a step, computed without the slopes. For a
+/// second-order system of unit mass, with F_d = R_d + Dg Y_d and Y_d = K R_d + B z_d (StageSystem),
 ///
 ///   dq_d = h p_d + h^2 sum b_i (1 - c_i) F_(d,i) ,   dp_d = h sum b_i F_(d,i) ,
 ///   dz_d = S z_d + T R_d .
 ///
 /// Where forces are gradients, so that Dg is symmetric, T follows from B alone: a Gauss method
 /// keeps the bilinear invariants of the linearised equations (Sanz-Serna, SIAM Review 58 (2016) 3,
-/// section 2). Of the product with J = [[0, I], [-I, 0]] of the derivatives by the state, B_i =
-/// (A_i, C_i) the rows of the positions at the stage i and Phi = I + S those of the end, and of
-/// what forces R_i at the stages change,
+/// section 2). Let B_i = (A_i, C_i) be the derivatives of the positions at stage i by the state,
+/// Phi = I + S those of the end, and J = [[0, I], [-I, 0]]. For the change dz that forces R_i at
+/// the stages cause, the invariant gives
 ///
 ///   Phi^T J dz = h sum b_i B_i^T R_i ,
 ///
-/// and as Phi is symplectic
+/// and because Phi is symplectic,
 ///
 ///   T_i = h b_i Phi (-C_i, A_i)^T .
 ///
 /// The 2m rows of S and T stand side by side as lanes. A monomial takes 2m + m s multiply-adds of
-/// packs, and no sums over lanes.
+/// packs and no sums over lanes.
 template <class Real, int Lanes>
 class EndMap {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// Whether an integration can take its degrees above 0 so: in up to two variables these are
-  /// iterated for, without B. Order 1 gains nothing, but has the bits of all others so.
+  /// Whether an integration can treat its degrees above 0 in this way. With up to two variables
+  /// these are iterated instead, without B. Order 1 gains nothing, but is treated alike to have the
+  /// same bits as all other orders.
   static bool serves(const StageSystem<Real, Lanes>& system, const SeriesSpace& space, int order) {
     const bool is_possible =
         system.second_order() && system.unit_mass() && 2 * system.components() <= Lanes;
     return is_possible && order >= 1 && space.variables() > 2;
   }
 
-  /// Forms S, and T where there are remainders, from the stages as they stand, for which
-  /// StageSlopes::factorise has formed what Response::for_end_map asks for (B alone without
-  /// remainders).
+  /// Forms S and, if there are remainders, T from the present stages. StageSlopes::factorise must
+  /// have been called with Response::for_end_map (with B alone if there are no remainders).
   void form(const StageSlopes<Real, Lanes>& stages, bool has_remainders) {
     form_gradients(stages);
     const StageSystem<Real, Lanes>& system = stages.system();
@@ -60,8 +60,8 @@ class EndMap {
     }
   }
 
-  /// Calls `add(monomial, dz)` for all monomials of a degree; `state(component, monomial)` is the
-  /// state's coefficient, which is not read after that call.
+  /// Calls `add(monomial, dz)` for all monomials of a degree. `state(component, monomial)` is the
+  /// state's coefficient; it is not read after that call.
   template <class State, class Add>
   void apply(const SliceEvaluator<P, Real>& evaluator, const SeriesSpace& space, int degree,
              const State& state, const Add& add) const {
@@ -73,7 +73,7 @@ class EndMap {
 
  private:
   static constexpr std::size_t tile = StageSlopes<Real, Lanes>::tile;
-  /// Of an orbit S has 6 columns, and T, where it is summed, 3 a stage.
+  /// For an orbit, S has 6 columns, and T, where it is summed, 3 per stage.
   static constexpr std::size_t columns_at_once = 6;
 
   /// The derivatives of h^2 sum b_i (1 - c_i) F_i and h sum b_i F_i by the stages' components.
@@ -141,8 +141,8 @@ class EndMap {
     pack.set_lane(i, pack.lane(i) + x);
   }
 
-  /// result_q = sum over k and i of gradients_(k, i) (columns_q)_(k, i), of columns of m packs over
-  /// the stages.
+  /// result_q = sum over k and i of gradients_(k, i) (columns_q)_(k, i), for columns of m packs
+  /// over the stages.
   void sum_columns(const P* columns, std::size_t m, std::size_t s, std::vector<P>& result) const {
     std::size_t q = 0;
     for (; q + columns_at_once <= result.size(); q += columns_at_once) {
@@ -151,7 +151,7 @@ class EndMap {
     for (; q < result.size(); ++q) sum_tile<1>(columns + q * m, m, s, &result[q]);
   }
 
-  /// Several sums at once do not wait for one another.
+  /// Several sums at once, because each of them waits for its own last addition.
   template <std::size_t Width>
   void sum_tile(const P* columns, std::size_t m, std::size_t s, P* result) const {
     std::array<P, Width> sums;
@@ -170,7 +170,7 @@ class EndMap {
   void apply_tile(const SliceEvaluator<P, Real>& evaluator, int degree, std::size_t monomial,
                   const State& state, const Add& add) const {
     const std::size_t m = of_state_.size() / 2;
-    const std::size_t s = of_remainders_.size() / m;  // of a degree that has remainders
+    const std::size_t s = of_remainders_.size() / m;  // the degree has remainders
     std::array<P, Width> sums;
     for (std::size_t k = 0; k < of_state_.size(); ++k) {
       const P& column = of_state_[k];
@@ -189,10 +189,10 @@ class EndMap {
     for (std::size_t t = 0; t < Width; ++t) add(monomial + t, sums[t]);
   }
 
-  std::vector<P> gradients_;  ///< of the rows' sums by the stages' components
+  std::vector<P> gradients_;  ///< gradients of the rows' sums by the stages' components
   std::vector<P> of_state_;
   std::vector<P> of_remainders_;
-  std::vector<P> end_;  ///< Phi, by columns
+  std::vector<P> end_;  ///< columns of Phi
 };
 
 }  // namespace hamjet

@@ -10,9 +10,9 @@
 
 namespace hamjet {
 
-/// A Gauss integration in arcs. Where checkpoints of all steps are kept, an arc takes the steps and
-/// the stages of the nominal from them; else it repeats Newton's iteration and the choice of steps
-/// from its own checkpoint on, with the same result.
+/// A Gauss integration in arcs. If checkpoints of all steps are kept, an arc takes the steps and
+/// the stages of the nominal from them. Otherwise it repeats Newton's iteration and the choice of
+/// steps from its own checkpoint on, with the same result.
 template <class Real, int Lanes>
 class GaussArcs : public ArcIntegrator<Real> {
  public:
@@ -61,11 +61,11 @@ class GaussArcs : public ArcIntegrator<Real> {
     const double dimension = static_cast<double>(problem_.system->dimension());
     const double values = static_cast<double>(list.operations().size());
     const double coefficients = static_cast<double>(space.first(order + 1));
-    // Linear solves and linear parts of all values, a coefficient and stage.
+    // Linear solves and linear parts of all values, per coefficient and stage.
     const double linear = components * (components * stages + dimension) + components * values;
-    // Costs once a step: the elimination of a matrix of `unknowns` rows with as many and 2n
-    // right-hand sides; evaluations in Newton's iteration, its responses, extrapolation. All on
-    // packs.
+    // Costs once per step, all on packs: the elimination of a matrix of `unknowns` rows with as
+    // many and 2n right-hand sides; evaluations in Newton's iteration; its responses;
+    // extrapolation.
     const double unknowns = components * stages;
     const double elimination =
         elimination_weight * unknowns * (1.5 * unknowns + dimension) * components;
@@ -74,14 +74,14 @@ class GaussArcs : public ArcIntegrator<Real> {
                              2 * nominal_weight * stages * stages;
     const double series =
         series_multiply_adds(list, space, order) + linear * coefficients + elimination;
-    // A step between checkpoints solves for its stages anew.
+    // A step between checkpoints must solve for its stages again.
     const double of_arc = checkpoints_.has_all() ? evaluation : iteration;
     return {Lanes * (elimination + iteration), Lanes * series, Lanes * (series + of_arc)};
   }
 
  private:
-  /// Measured with 8 stages: how many multiply-adds of products of series take the time of one of
-  /// the elimination, and of one of the other short dependent runs of the nominal.
+  /// Measured with 8 stages: the number of multiply-adds of products of series that take as long as
+  /// one of the elimination, and as one of the other short dependent operations of the nominal.
   static constexpr double elimination_weight = 2.7;
   static constexpr double nominal_weight = 12;
 

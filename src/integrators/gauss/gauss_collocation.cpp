@@ -12,12 +12,12 @@ namespace hamjet {
 
 namespace {
 
-/// Up to this order the whole jet is the first trial of a tolerance: it takes 1.5 times (order 1)
-/// to 3.4 times (order 4) as long as the lines that would be, and is there already where the
-/// tolerance suffices; at order 5 5.8 times, for a trial that often does not suffice.
+/// Up to this order the first trial of a tolerance is made with the whole jet. This takes 1.5 times
+/// (order 1) to 3.4 times (order 4) as long as a trial with lines, but if the tolerance suffices
+/// the jet is finished. At order 5 it would take 5.8 times as long, for a trial that often fails.
 constexpr int highest_order_tried_whole = 4;
 
-/// Integrates with the steps of a tolerance, with what rotation the problem allows left out.
+/// Integrates with the steps of a tolerance; the rotation is left out where the problem allows it.
 template <class Real>
 FlowJet<Real> integrate_with(const FlowProblem<Real>& problem, const GaussSettings& settings,
                              IntegrationStatistics& statistics,
@@ -39,7 +39,7 @@ FlowJet<Real> integrate_gauss(const FlowProblem<Real>& problem, const GaussSetti
   validate_gauss(settings);
   GaussSettings used = settings;
   const IntegrationClock clock;
-  // An observer, or a profile, must see one integration alone.
+  // An observer, or a profile, must see one integration only.
   const bool is_tried_whole = needs_choice(problem, settings) && !observer &&
                               settings.profile == nullptr &&
                               problem.space->order() <= highest_order_tried_whole;

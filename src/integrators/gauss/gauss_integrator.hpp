@@ -34,7 +34,8 @@ class GaussIntegrator {
                   IntegrationStatistics& statistics)
       : GaussIntegrator(problem, settings, statistics, working_order(problem)) {}
 
-  /// Steps are chosen as for a jet of order `controlled_order`, which can be above the problem's.
+  /// Steps are chosen as for a jet of order `controlled_order`, which may be above the problem's
+  /// order.
   GaussIntegrator(const FlowProblem<Real>& problem, const GaussSettings& settings,
                   IntegrationStatistics& statistics, int controlled_order)
       : problem_(problem),
@@ -49,14 +50,14 @@ class GaussIntegrator {
         control_(settings, stages_, jet_, controlled_order),
         nominal_(*problem.system, settings, stages_, jet_, control_, end_slope_, statistics) {}
 
-  /// Runs to the end of the duration, telling the observer after every step.
+  /// Runs to the end of the duration and calls the observer after every step.
   FlowJet<Real> run(const StepObserver<Real>& observer) {
     return run_nominal(
         observer, [](long) { return false; }, [](const auto&) {});
   }
 
-  /// Runs like `run`, telling `keep` where the nominal stands at the start and after every step, if
-  /// `is_kept(taken)`.
+  /// Runs like `run`. At the start and after every step for which `is_kept(taken)` holds, it calls
+  /// `keep` with the checkpoint of the nominal.
   template <class IsKept, class Keep>
   FlowJet<Real> run_nominal(const StepObserver<Real>& observer, const IsKept& is_kept,
                             const Keep& keep) {
@@ -70,9 +71,9 @@ class GaussIntegrator {
     return finish();
   }
 
-  /// Takes the steps of an earlier run of the same nominal from a checkpoint on, to the `last`-th.
-  /// What that run found is taken over where `after(taken)` has the checkpoint of so many steps,
-  /// and found again, with the same result, where it is null.
+  /// Repeats the steps of an earlier run of the same nominal, from a checkpoint to step number
+  /// `last`. `after(taken)` is the checkpoint of the earlier run after that many steps, whose
+  /// results are taken over; if it is null, they are computed again, with the same result.
   template <class After>
   FlowJet<Real> run_from(const GaussCheckpoint<Real, Lanes>& start, long last, const After& after,
                          const StepObserver<Real>& observer) {
@@ -106,15 +107,15 @@ class GaussIntegrator {
             stages_.slopes(), stages_.is_by_newton(), end_slope_};
   }
 
-  /// A step is repeated if its error estimate exceeds the tolerance by more than this factor: the
-  /// estimate goes as h^(2s), so that a step hardly too long is not worth repeating. Where every
-  /// degree counts, the tolerance is far below what is wanted.
+  /// A step is repeated if its error estimate exceeds the tolerance by more than this factor. The
+  /// estimate is proportional to h^(2s), so that repeating a step that is slightly too long does
+  /// not pay. If every degree is controlled, the tolerance is far below the needed accuracy.
   double largest_excess() const { return settings_.controls_all_degrees ? 1000 : 10; }
 
   Clock::time_point profile_mark() const {
     return settings_.profile == nullptr ? Clock::time_point() : Clock::now();
   }
-  /// Adds the time since `mark` to one entry of the profile and moves the mark.
+  /// Adds the time since `mark` to one entry of the profile and sets the mark to now.
   void account(double GaussProfile::*entry, Clock::time_point& mark) {
     if (settings_.profile == nullptr) return;
     const auto now = Clock::now();
@@ -134,7 +135,7 @@ class GaussIntegrator {
     }
   }
 
-  /// Evaluates the slopes g at the state's constant terms.
+  /// Evaluates the slopes g at the constant terms of the state.
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
     for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.constant(c);
@@ -222,7 +223,7 @@ class GaussIntegrator {
                      ? problem_.duration
                      : problem_.duration - at_.proposed * Real(at_.remaining_steps);
     } else {
-      // Without compensation the rounding of thousands of steps would miss the duration.
+      // Without compensation the rounding of thousands of steps would miss the end of the duration.
       add_compensated(at_.time, at_.lost_time, h);
       if (h == remaining) at_.time = problem_.duration;
       at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
@@ -257,11 +258,11 @@ class GaussIntegrator {
                     settings_.stages, static_cast<double>(h), static_cast<double>(at_.time)));
   }
 
-  /// Solves the degrees 1..N of the stages; false if their equations cannot be solved.
+  /// Solves the degrees 1..N of the stages; returns false if their equations cannot be solved.
   bool solve_degrees(Clock::time_point& mark) {
-    // Series along one or two lines, and the first degrees of bivariate ones, are too few for a
-    // factorisation. What decides is the degree, so that all but the highest do not depend on the
-    // order.
+    // Series along one or two lines, and the first degrees of bivariate ones, have too few
+    // monomials for a factorisation. The choice depends on the degree, so that all degrees but the
+    // highest are independent of the order.
     const SeriesSpace& space = *problem_.space;
     const int last_iterated = space.variables() > 2 ? 0 : (space.is_uncoupled() ? order_ : 3);
     bool iterates = true;
@@ -294,14 +295,14 @@ class GaussIntegrator {
     return true;
   }
 
-  /// The stages of degree 1 have no remainders, and those of the highest are not needed for the end
-  /// map.
+  /// The stages of degree 1 have no remainders, and the end map does not need the stages of the
+  /// highest degree.
   Response needed_response() const {
     if (order_ == 1) return Response::left_out;
     return order_ == 2 && end_map_ ? Response::for_end_map : Response::formed;
   }
 
-  /// The end map where it serves; the control of all degrees needs their slopes.
+  /// The end map, if it can be used; the control of all degrees needs the slopes instead.
   std::optional<EndMap<Real, Lanes>> make_end_map() const {
     if (settings_.controls_all_degrees ||
         !EndMap<Real, Lanes>::serves(stages_.system(), *problem_.space, order_)) {
@@ -310,7 +311,7 @@ class GaussIntegrator {
     return EndMap<Real, Lanes>();
   }
 
-  /// Advances the jet to the new state, from the stages.
+  /// Advances the jet to the new state, using the stages.
   void advance_jet(const Real& h) {
     jet_.advance(stages_, h, end_map_ ? 0 : order_);
     if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_);
@@ -330,8 +331,8 @@ class GaussIntegrator {
   NominalStages<Real, Lanes> nominal_;
   GaussStepping<Real> at_;
   Real step_ = 0;                           ///< the step that is being tried
-  std::optional<KnownSlopes<Real>> guess_;  ///< what the next try's slopes are guessed from
-  std::vector<Real> end_slope_;  ///< at the end of the last step, where the next one starts
+  std::optional<KnownSlopes<Real>> guess_;  ///< the slopes from which the next trial is guessed
+  std::vector<Real> end_slope_;  ///< slope at the end of the last step, where the next one starts
 };
 
 }  // namespace hamjet

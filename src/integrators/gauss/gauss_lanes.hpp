@@ -11,7 +11,7 @@ namespace hamjet {
 template <class Real>
 class ArcIntegrator;
 
-/// integrate_gauss for one number of lanes; each is compiled in a file of its own.
+/// integrate_gauss for one number of lanes; each number is compiled in a file of its own.
 template <int Lanes, class Real>
 FlowJet<Real> run_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer);
@@ -21,9 +21,9 @@ template <int Lanes, class Real>
 std::unique_ptr<ArcIntegrator<Real>> make_gauss_arcs(const FlowProblem<Real>& problem,
                                                      const GaussSettings& settings);
 
-/// Calls `call` with the number of lanes, an integral constant: the stages fill the lanes of a
-/// pack, and the smallest of five widths that holds them is taken. References alone are made of
-/// double-double numbers, and have many stages: one width is enough for these.
+/// Calls `call` with the number of lanes, an integral constant: the smallest of five widths whose
+/// lanes hold all stages. Double-double numbers serve references only, which have many stages, so
+/// that one width is enough for these.
 template <class Real, class Call>
 auto with_lanes(int stages, const Call& call) {
   if constexpr (std::is_same_v<Real, DoubleDouble>) {
@@ -36,7 +36,7 @@ auto with_lanes(int stages, const Call& call) {
   return call(std::integral_constant<int, 16>{});
 }
 
-/// run_gauss and make_gauss_arcs with the lanes that the settings' stages need.
+/// run_gauss and make_gauss_arcs with the number of lanes that the settings' stages need.
 template <class Real>
 FlowJet<Real> run_gauss(const FlowProblem<Real>& problem, const GaussSettings& settings,
                         IntegrationStatistics& statistics,

@@ -13,14 +13,14 @@
 
 namespace hamjet {
 
-/// Chooses the steps of a Gauss method from the nominal, by the rule of GaussStepRule: see
+/// Chooses the steps of a Gauss method from the nominal, by the rule of GaussStepRule; see
 /// GaussSettings and integrate_gauss.
 template <class Real, int Lanes>
 class GaussStepControl {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// Looks at the objects of the integrator that it serves, which must outlive it.
+  /// Refers to objects of the integrator that it serves; these must outlive it.
   GaussStepControl(const GaussSettings& settings, StageSlopes<Real, Lanes>& stages,
                    SummedJet<Real, Lanes>& jet, int order)
       : settings_(settings),
@@ -29,7 +29,7 @@ class GaussStepControl {
         rule_(settings.stages, stages.system().second_order(), order,
               static_cast<double>(std::numeric_limits<Real>::epsilon())) {}
 
-  /// From the gradient at the start, where `point` has the vector field.
+  /// The first step, from the gradient at the start; `point` must have been evaluated there.
   Real first_step(SliceEvaluator<Real, Real>& point, const Real& duration) {
     const std::size_t m = stages_.system().components();
     double norm = 0;
@@ -45,7 +45,7 @@ class GaussStepControl {
     return std::abs(h) == std::abs(span) ? duration : Real(h);
   }
 
-  /// Distance, at the start of the step, between the slope there and the collocation polynomial.
+  /// Distance, at the start of the step, between the slope and the collocation polynomial.
   double start_defect(const std::vector<Real>& end_slope) const {
     double result = 0;
     for (std::size_t c = 0; c < end_slope.size(); ++c) {
@@ -70,7 +70,7 @@ class GaussStepControl {
                                 [this](int degree) { return mode(degree); });
   }
 
-  /// The step h from a state, shortened to what samples the field's shortest wave.
+  /// The step h from a state, shortened so that the stages sample the field's shortest wave.
   template <class State>
   Real sampling_step(const Real& h, const DynamicalSystem& system, const State& state) const {
     const double longest = longest_sampling_step(system, state);
@@ -78,7 +78,7 @@ class GaussStepControl {
     return h < 0 ? Real(-longest) : Real(longest);
   }
 
-  /// Periods of the linearised motion in a step.
+  /// Number of periods of the linearised motion in a step.
   double periods(const Real& h) {
     StepMeasures step;
     step.largest_gradient = stages_.largest_gradient();
@@ -98,8 +98,7 @@ class GaussStepControl {
   }
 
  private:
-  /// GaussStepRule::longest_sampling_step from a state; infinite where the system has no such
-  /// field.
+  /// GaussStepRule::longest_sampling_step from a state; infinite if the system has no such field.
   template <class State>
   double longest_sampling_step(const DynamicalSystem& system, const State& state) const {
     if (system.waves_on_a_circle == 0) return std::numeric_limits<double>::infinity();
@@ -113,7 +112,7 @@ class GaussStepControl {
     return rule_.longest_sampling_step(system.waves_on_a_circle, distance / speed);
   }
 
-  /// The largest component of the Legendre mode of one degree, below s, of the slopes.
+  /// The largest component of the slopes' Legendre mode of one degree, which is below s.
   double mode(int degree) {
     double result = 0;
     const P& weights = stages_.system().coefficients().modes[static_cast<std::size_t>(degree)];

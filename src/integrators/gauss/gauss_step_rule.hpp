@@ -8,19 +8,19 @@
 
 namespace hamjet {
 
-/// What a step of a Gauss method shows: largest magnitudes over its stages and components.
+/// Measures of a step of a Gauss method: largest magnitudes over its stages and components.
 struct StepMeasures {
   double defect = 0;            ///< GaussStepControl::start_defect
-  double slope = 0;             ///< of the slopes g
-  double first_gradient = 0;    ///< of the entries of Dg at the first stage
-  double last_gradient = 0;     ///< at the last
-  double largest_gradient = 0;  ///< at all
-  double place = 0;             ///< of the state at the start, as far as g depends on it
-  double velocity = 0;          ///< there; for a system of second order
+  double slope = 0;             ///< largest slope g
+  double first_gradient = 0;    ///< largest entry of Dg at the first stage
+  double last_gradient = 0;     ///< at the last stage
+  double largest_gradient = 0;  ///< at all stages
+  double place = 0;             ///< size of the part of the initial state on which g depends
+  double velocity = 0;          ///< velocity at the start, for a second-order system
 };
 
-/// How large the steps of a Gauss method of s stages are to be, from what they show: see
-/// integrate_gauss. A jet of `order` is integrated in numbers of the given epsilon.
+/// The rule by which a Gauss method of s stages chooses its steps, from their measures: see
+/// integrate_gauss. It applies to a jet of `order`, in numbers of the given epsilon.
 class GaussStepRule {
  public:
   GaussStepRule(int stages, bool is_second_order, int order, double epsilon)
@@ -30,8 +30,9 @@ class GaussStepRule {
         std::pow(std::tgamma(s + 1), 2) / (std::tgamma(2 * s + 1) * std::tgamma(2 * s + 2));
   }
 
-  /// The time in which the slopes change by about their own size, from a norm of the gradient at
-  /// the start; for an orbit it is proportional to r^(3/2). At most the duration's.
+  /// The first step: the time in which the slopes change by about their own size, from a norm of
+  /// the gradient at the start; for an orbit it is proportional to r^(3/2). It is at most the
+  /// duration.
   double first_step(double norm, double tolerance, double duration) const {
     const double span = std::abs(duration);
     double h = span;
@@ -40,11 +41,12 @@ class GaussStepRule {
     return std::copysign(std::min(h, span), duration);
   }
 
-  /// The error of a step, from the Legendre mode of degree 2s of the slopes, the first that the
-  /// method does not integrate, relative to the slopes: the square of the mode of degree s, which
-  /// shows as the defect at the start of the step (where that happens to vanish, the last mode
-  /// kept, which has the other parity, does not), or what the decay of the last modes lets expect,
-  /// if that is more. `mode(k)` is the largest component of the mode of degree k.
+  /// The error of a step relative to the slopes, from the Legendre mode of degree 2s of the slopes,
+  /// which is the first that the method does not integrate. It is estimated by the square of the
+  /// mode of degree s, which appears as the defect at the start of the step or, if the defect
+  /// happens to vanish, by the last mode kept, which has the other parity. If the decay of the last
+  /// modes suggests a larger value, that value is taken. `mode(k)` is the largest component of the
+  /// mode of degree k.
   template <class Mode>
   double error_estimate(const StepMeasures& step, double h, const Mode& mode) const {
     const double slope = slope_scale(step);
@@ -55,13 +57,14 @@ class GaussStepRule {
       if (s_ > 1) {
         const double last = std::max(0.0, mode(s_ - 1) - noise) / slope;
         const double s = s_;
-        // The power of a number below 1 is less than the number.
+        // For a number below 1, its power would be less than the number.
         if (last > std::min(ratio, 1.0)) ratio = std::max(ratio, std::pow(last, s / (s - 1)));
       }
       errors[1] = error_constant * ratio * ratio;
       errors[2] = continued_modes(slope, noise, mode);
     }
-    // Where a force ends, slopes or gradients are infinite or no numbers: steps must be shorter.
+    // Where a force has a singularity, slopes or gradients are infinite or NaN, and the steps must
+    // be shorter.
     if (std::any_of(errors.begin(), errors.end(), [](double x) { return std::isnan(x); })) {
       return std::numeric_limits<double>::infinity();
     }
@@ -73,9 +76,9 @@ class GaussStepRule {
     return std::clamp(0.95 * std::pow(tolerance / error, 0.5 / s_), 0.1, 4.0);
   }
 
-  /// How the time scale of the dynamics changes over the step, from the slopes' gradients at its
-  /// first and last stage: the next step starts where this one ends, and an orbit's time scale,
-  /// which goes as r^(3/2), changes much from one step to the next.
+  /// The ratio of the time scales at the end and at the start of the step, from the slopes'
+  /// gradients at its last and first stage. The next step starts where this one ends, and the time
+  /// scale of an orbit, which is proportional to r^(3/2), changes much from one step to the next.
   double time_scale_ratio(const StepMeasures& step) const {
     if (step.first_gradient == 0 || step.last_gradient == 0) return 1;
     const double ratio = step.first_gradient / step.last_gradient;
@@ -83,29 +86,29 @@ class GaussStepRule {
     return std::clamp(is_second_order_ ? std::sqrt(ratio) : ratio, 0.25, 4.0);
   }
 
-  /// Periods of the linearised motion in a step.
+  /// Number of periods of the linearised motion in a step.
   double periods(const StepMeasures& step, double h) const {
     return std::abs(h) * frequency(step) / (2 * std::numbers::pi);
   }
 
-  /// The longest step on which the stages resolve the shortest wave of the field: a field of n
-  /// waves on a circle about the origin passes at n |v| / |q| at most, and a Legendre expansion
-  /// begins to converge at pi points a wave (Gottlieb and Orszag, Numerical Analysis of Spectral
-  /// Methods, 1977, section 3). The end of the step, whose error goes as the Bessel function
-  /// J_2s(s) then, is good to four digits with 8 stages.
+  /// The longest step on which the stages resolve the shortest wave of the field. A field of n
+  /// waves on a circle about the origin passes with a frequency of at most n |v| / |q|, and a
+  /// Legendre expansion begins to converge at pi points per wave (Gottlieb and Orszag, Numerical
+  /// Analysis of Spectral Methods, 1977, section 3). The error at the end of the step then behaves
+  /// as the Bessel function J_2s(s), which is four digits with 8 stages.
   double longest_sampling_step(int waves, double distance_by_speed) const {
     return 2 * s_ * distance_by_speed / waves;
   }
 
  private:
-  /// A measured factor: with it the global error of all coefficients of degree 0..4 over a few
-  /// revolutions comes out near the tolerance, for 4 to 16 stages.
+  /// A measured factor. With it the global error of all coefficients of degree 0..4 over a few
+  /// revolutions is near the tolerance, for 4 to 16 stages.
   static constexpr double error_constant = 100;
 
-  /// The mode of degree 2s, relative to the slopes, if the modes go on as the last five or four do.
-  /// The square of the mode of degree s is right for a field of one scale. A weak field of short
-  /// waves (a zonal harmonic of high degree) shows only in the last modes, which then no longer
-  /// decay. This is the error of the nominal itself.
+  /// The mode of degree 2s relative to the slopes, if the modes continue as the last five or four
+  /// do. The square of the mode of degree s is right for a field of a single scale. A weak field of
+  /// short waves (a zonal harmonic of high degree) shows only in the last modes, which then no
+  /// longer decay. Such modes are the error of the nominal itself.
   template <class Mode>
   double continued_modes(double slope, double noise, const Mode& mode) const {
     if (s_ < 4) return 0;
@@ -117,13 +120,13 @@ class GaussStepRule {
     return near < far ? near * std::pow(near / far, (s_ + 2.0) / gap) : near;
   }
 
-  /// Error of the deviations after one of their own periods. A nominal at rest, or one that does
-  /// not move in a direction in which the deviations oscillate, shows nothing of it. For
-  /// y' = i omega y the method is the diagonal Pade approximant of the exponential, with an error
-  /// of
+  /// Error of the deviations after one of their own periods. It does not show on a nominal at rest,
+  /// or on one that does not move in the direction in which the deviations oscillate. For y' = i
+  /// omega y the method is the diagonal Pade approximant of the exponential, with an error of
   ///   (s!)^2 / ((2s)! (2s+1)!) (h omega)^(2s+1)     (Hairer and Wanner, Solving ODEs II, IV.3)
-  /// in each of 2 pi / (h omega) steps. The coefficients of degree d hold harmonics too; measured
-  /// on circular orbits, whose nominal shows least, (1 + d/4) omega keeps them to the tolerance.
+  /// in each of 2 pi / (h omega) steps. The coefficients of degree d contain harmonics as well; as
+  /// measured on circular orbits, whose nominal shows least of them, the frequency (1 + d/4) omega
+  /// keeps their error within the tolerance.
   double linearised_error(const StepMeasures& step, double h) const {
     const double x = std::abs(h) * frequency(step) * (1 + 0.25 * std::min(order_, 4));
     double power = 1;
@@ -136,14 +139,14 @@ class GaussStepRule {
     return is_second_order_ ? std::sqrt(step.largest_gradient) : step.largest_gradient;
   }
 
-  /// What rounding makes of a slope: near rest its terms cancel, each about the gradient times the
-  /// distance from the origin; and denormal numbers have few digits or none.
+  /// The rounding of a slope. Near rest the terms of a slope cancel, and each is about the gradient
+  /// times the distance from the origin; and denormal numbers have few digits or none.
   double slope_noise(const StepMeasures& step) const {
     return 8 * (epsilon_ * step.first_gradient * step.place + std::numeric_limits<double>::min());
   }
 
-  /// Size of the slopes, which does not vanish where a single force passes through zero: with a
-  /// second-order system a frequency times the velocity is a slope too.
+  /// Size of the slopes, which must not vanish where a single force passes through zero. For a
+  /// second-order system, a frequency times the velocity is therefore counted as a slope too.
   double slope_scale(const StepMeasures& step) const {
     if (!is_second_order_) return step.slope;
     return std::max(step.slope, 0.5 * std::sqrt(step.first_gradient) * step.velocity);

@@ -11,8 +11,8 @@
 namespace hamjet {
 namespace {
 
-/// P_0..P_s at x, by k P_k = (2k-1) x P_(k-1) - (k-1) P_(k-2); `inverse[k]` is 1/k, for divisions
-/// are slow in extended precision.
+/// P_0..P_s at x, by k P_k = (2k-1) x P_(k-1) - (k-1) P_(k-2). `inverse[k]` is 1/k, because
+/// divisions are slow in extended precision.
 template <class Real>
 std::vector<Real> legendre(const Real& x, const std::vector<Real>& inverse) {
   std::vector<Real> p(inverse.size(), Real(1));
@@ -44,12 +44,13 @@ Real newton_step(const Real& x, const std::vector<Real>& inverse) {
   return x - p.back() / legendre_derivative(p, x);
 }
 
-/// The i-th zero of P_s from the largest down, for the positive ones.
+/// The i-th zero of P_s, counted from the largest one; for positive zeros.
 Extended legendre_zero(std::size_t s, std::size_t i, const std::vector<Extended>& inverse) {
   const std::vector<double> inverse_double = inverses<double>(s);
   double x =
       std::cos(std::numbers::pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(s) + 0.5));
-  // Newton doubles the digits: the asymptotic guess has 3, binary64 gives 16, two more steps 34.
+  // Newton's method doubles the number of digits: the asymptotic guess has 3, binary64 gives 16,
+  // and two more steps give 34.
   for (int step = 0; step < 4; ++step) x = newton_step(x, inverse_double);
   return newton_step(newton_step(Extended(x), inverse), inverse);
 }
@@ -67,7 +68,7 @@ GaussTableau compute_tableau(std::size_t s) {
   const std::vector<Extended> inverse = inverses<Extended>(s);
   std::vector<std::vector<Extended>> p(s);  // P_0..P_s at the nodes on [-1, 1]
   for (std::size_t i = 0; i < s; ++i) {
-    // The zeros lie symmetrically, and the middle one of an odd number is 0.
+    // The zeros lie symmetrically, and the middle one of an odd number of zeros is 0.
     const std::size_t rank = std::min(i, s - 1 - i);
     Extended x = 2 * i + 1 == s ? Extended(0) : legendre_zero(s, rank, inverse);
     if (2 * i + 1 < s) x = -x;
@@ -79,7 +80,7 @@ GaussTableau compute_tableau(std::size_t s) {
       tableau.modes[k * s + i] = Extended(2 * k + 1) * tableau.weights[i] * p[i][k];
     }
   }
-  // l_j(c) = b_j sum_k (2k+1) P_k(c_j) P_k(c) with P_k shifted to [0, 1], and the integral of P_k
+  // l_j(c) = b_j sum_k (2k+1) P_k(c_j) P_k(c), where P_k is shifted to [0, 1]; the integral of P_k
   // from 0 to c is (P_(k+1) - P_(k-1)) / (2 (2k+1)).
   for (std::size_t i = 0; i < s; ++i) {
     std::vector<Extended> integral(s, tableau.nodes[i]);
@@ -119,7 +120,7 @@ const GaussTableau& gauss_tableau(std::size_t stages) {
   if (stages < 1 || stages > most_stages) {
     throw Error(ErrorKind::usage, "Gauss method: the number of stages must be 1..16");
   }
-  // Constants of mathematics, computed when first asked for: that takes longer than a step.
+  // These mathematical constants are computed at the first request, which takes longer than a step.
   static std::array<std::once_flag, most_stages + 1> is_computed;
   static std::array<GaussTableau, most_stages + 1> tableaux;
   std::call_once(is_computed[stages], [&] { tableaux[stages] = compute_tableau(stages); });

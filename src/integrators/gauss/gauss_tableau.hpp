@@ -9,18 +9,19 @@ namespace hamjet {
 
 /// Coefficients of the s-stage Gauss collocation method of order 2s on [0, 1]: nodes c (zeros of
 /// the shifted Legendre polynomial), weights b and the matrix A. Source: Hairer, Lubich and Wanner,
-/// Geometric Numerical Integration, section II.1.3. Computed in extended precision, not tabulated.
+/// Geometric Numerical Integration, section II.1.3. The coefficients are computed in extended
+/// precision, not tabulated.
 struct GaussTableau {
   std::size_t stages = 0;
   std::vector<Extended> nodes;
   std::vector<Extended> weights;
   std::vector<Extended> matrix;   ///< s x s by rows, a_ij = integral of l_j from 0 to c_i
-  std::vector<Extended> squared;  ///< A^2, by rows: couples the stages of a second-order system
-  /// The s x s matrix whose row k has the weights that give, from values at the nodes, their
-  /// Legendre mode of degree k on [0, 1].
+  std::vector<Extended> squared;  ///< A^2, by rows; it couples the stages of a second-order system
+  /// The s x s matrix whose row k gives, from values at the nodes, their Legendre mode of degree k
+  /// on [0, 1].
   std::vector<Extended> modes;
-  /// Factors of Lagrange's polynomials at the nodes: l_j(x) = lagrange_j times the product over
-  /// k != j of x - c_k.
+  /// Factors of Lagrange's polynomials at the nodes: l_j(x) is lagrange_j times the product over k
+  /// != j of x - c_k.
   std::vector<Extended> lagrange;
   std::vector<Extended> start;  ///< values at 0 of Lagrange's polynomials at the nodes
 

@@ -16,30 +16,34 @@
 namespace hamjet {
 namespace {
 
-/// The largest error of a degree, in units of the tolerance times the number of periods.
+/// The largest allowed error of a degree, in units of the tolerance times the number of periods.
 constexpr double allowed_excess = 3;
-/// A trial aims this far below what is allowed, for the error falls only about as expected.
+/// A trial aims at this fraction of the allowed error, because the error falls only approximately
+/// as expected.
 constexpr double aim = 0.1;
-/// The least factor between the tolerances of two trials.
+/// The least ratio between the tolerances of two successive trials.
 constexpr double least_reduction = 1e-5;
-/// The largest factor after a trial whose steps were no shorter than those of the one before: then
-/// it is the waves of the field that limit them, not yet the tolerance.
+/// The largest ratio after a trial whose steps were no shorter than those of the trial before. Then
+/// the waves of the field still limit the steps, not the tolerance.
 constexpr double next_reduction = 1e-3;
 constexpr int most_trials = 6;
-/// Errors of truncation may cancel in one trial, so that the next has no smaller ones; not in two.
+/// In a single trial errors of truncation may cancel, so that the next trial has no smaller ones;
+/// in two trials this does not happen.
 constexpr int stalls_of_rounding = 2;
-/// Finer steps serve the next trial too if their tolerance is that much below its own: then what
-/// they are wrong by is a thirtieth of what is measured.
+/// Finer steps also serve the next trial if their tolerance is smaller than that of the trial by
+/// this factor: their own error is then a thirtieth of the measured one.
 constexpr double fine_enough = 30;
-/// Lines of more steps are tried twice only: each trial is a good part of the whole work then.
+/// Lines with more steps than this are tried only twice, because each trial is then a large part of
+/// the whole work.
 constexpr long most_steps_of_more_trials = 10000;
-/// Steps that leave a degree fewer than two digits are too coarse to converge yet, so that an error
-/// which they do not halve need not be rounding.
+/// If a degree has fewer than two digits, the steps are too coarse for convergence, so that an
+/// error that is not halved by shorter steps need not be rounding.
 constexpr double largest_converging_error = 1e-2;
-/// From this degree on the zonal harmonics are weak and short enough to hide from the step control.
+/// From this degree on, zonal harmonics are so weak and short that the step control may miss them.
 constexpr int least_short_waves = 5;
 
-/// Below this tolerance the step control, which squares a defect of slopes, sees rounding alone.
+/// Below this tolerance the step control, which squares a defect of slopes, measures rounding
+/// alone.
 template <class Real>
 double smallest_step_tolerance() {
   const double noise = 64 * static_cast<double>(std::numeric_limits<Real>::epsilon());
@@ -56,7 +60,7 @@ struct Trial {
   double limit = 0;
   long steps = 0;
   double finer_tolerance = 0;
-  double periods = 0;  ///< of the finer lines
+  double periods = 0;  ///< number of periods, from the finer lines
 
   double excess(std::size_t degree) const { return error_by_degree[degree] / limit; }
   double largest_error() const {
@@ -71,8 +75,8 @@ void judge(Trial<Real>& trial, const DirectionalFlow<Real>& flow, const GaussSet
   trial.limit = allowed_excess * *settings.tolerance * std::max(1.0, trial.periods);
 }
 
-/// Tries a tolerance: the jet of a first trial may be there already, or the finer lines of the one
-/// before.
+/// Tries a tolerance. The jet of a first trial, or the finer lines of the previous trial, may be
+/// available already.
 template <class Real>
 Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings& settings,
                           double tolerance, std::size_t threads, const FirstTrial<Real>* known,
@@ -90,7 +94,8 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   };
   Run coarse{own, {}, {}};
   Run finer{finest, {}, {}};
-  // The steps asked for come first: where both fail, theirs is the failure that is told.
+  // The steps that were asked for come first: if both runs fail, the failure of these steps is
+  // reported.
   std::vector<Run*> runs;
   if (known == nullptr) runs.push_back(&coarse);
   if (!has_finer) runs.push_back(&finer);
@@ -111,8 +116,9 @@ Trial<Real> try_tolerance(const DirectionalFlow<Real>& flow, const GaussSettings
   return trial;
 }
 
-/// The power of the tolerance with which the largest error fell from one trial to the next: 1 where
-/// the step control measures what it limits, less for high degrees, which it does not see.
+/// The power of the tolerance with which the largest error fell from one trial to the next. It is 1
+/// where the step control measures the error that it limits, and less for high degrees, which it
+/// does not measure.
 template <class Real>
 double convergence(const Trial<Real>& before, const Trial<Real>& after) {
   const double fall = std::log(before.largest_excess() / after.largest_excess());
@@ -120,8 +126,8 @@ double convergence(const Trial<Real>& before, const Trial<Real>& after) {
   return std::isfinite(power) ? std::clamp(power, 0.4, 1.0) : 1;
 }
 
-/// The tolerance at which truncation has fallen to the errors of `last`, which are rounding:
-/// shorter steps do not take them away.
+/// The tolerance at which the truncation error has fallen to the errors of `last`, which are
+/// rounding and do not fall with shorter steps.
 template <class Real>
 double where_rounding_begins(const Trial<Real>& before, const Trial<Real>& last) {
   double ratio = 1;
@@ -160,7 +166,7 @@ template <class Real>
 bool needs_choice(const FlowProblem<Real>& problem, const GaussSettings& settings) {
   const bool is_chosen_in_steps = !settings.tolerance || settings.controls_all_degrees;
   // For the nominal alone the step control suffices, unless the field has waves that are much
-  // shorter than the rest of it.
+  // shorter than its main scale.
   const bool is_known =
       problem.space->order() == 0 && problem.system->waves_on_a_circle < least_short_waves;
   return !is_chosen_in_steps && !is_known && problem.duration != 0;
@@ -190,7 +196,7 @@ StepTolerance<Real> choose_step_tolerance(const FlowProblem<Real>& problem,
     Trial<Real> trial = try_tolerance<Real>(flow, settings, next, threads, nullptr, &before);
     if (!(trial.largest_excess() > 1)) return chosen(next, flow, std::move(trial));
     const bool is_shorter = trial.steps > before.steps;
-    // Steps that much shorter would take away far more of a truncation error.
+    // Steps that are this much shorter would reduce a truncation error by far more.
     const bool stalls_now = is_shorter && trial.largest_excess() > 0.5 * excess &&
                             trial.largest_error() <= largest_converging_error;
     stalls = stalls_now ? stalls + 1 : 0;

@@ -12,7 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// As many jets as fit the memory, but never fewer than two, between which steps are repeated.
+/// The number of jets that fit the memory, but at least two; between two kept jets steps are
+/// repeated.
 template <class Real>
 std::size_t most_jets(const FlowProblem<Real>& problem, double most_bytes) {
   const double each = static_cast<double>(problem.initial_state.size()) *
@@ -27,7 +28,8 @@ JetTrajectory<Real>::JetTrajectory(const FlowProblem<Real>& problem, const Gauss
                                    double most_bytes, const StepObserver<Real>& observer)
     : problem_(problem), settings_(settings), most_kept_(most_jets(problem, most_bytes)) {
   validate(problem);
-  problem_.observes_constant_terms = false;  // for the jets at the steps are kept
+  problem_.observes_constant_terms =
+      false;  // the jets at the steps are kept, so that they must have all variables
   times_.push_back(Real(0));
   kept_.push_back(starting_jet(problem));
   final_ = integrate_gauss<Real>(problem_, settings, statistics_,
@@ -36,7 +38,7 @@ JetTrajectory<Real>::JetTrajectory(const FlowProblem<Real>& problem, const Gauss
                                    keep(jet);
                                    if (observer) observer(time, jet);
                                  });
-  // What a short step is asked for is its length; it has nothing to choose or to measure.
+  // A short step has a given length, and nothing to choose or to measure.
   settings_.tolerance.reset();
   settings_.estimates_step_error = false;
   settings_.controls_all_degrees = false;
@@ -78,7 +80,7 @@ FlowJet<Real> JetTrajectory<Real>::at(const Real& time) const {
                             static_cast<double>(problem_.duration), static_cast<double>(time)));
   }
   if (time == problem_.duration) return final_;
-  // The first step that begins after the time; there is one before, at 0.
+  // The first step that begins after the time. There is an earlier one, which begins at 0.
   const auto after =
       std::upper_bound(times_.begin(), times_.end(), time,
                        [&](const Real& a, const Real& b) { return is_backwards ? a > b : a < b; });

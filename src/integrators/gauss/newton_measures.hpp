@@ -8,13 +8,14 @@
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "stage_system.hpp"
 
-// What tells Newton's method for the stages of a step that it has come to round-off. The stages are
-// the constant terms of the evaluator's inputs.
+// Measures by which Newton's method for the stages of a step detects round-off. The stages are the
+// constant terms of the evaluator's inputs.
 
 namespace hamjet {
 
-/// How much rounding is amplified in the stages: that of the slopes through K, and that of Y = base
-/// + W G where the two nearly cancel (stiff systems): (|base| + sum of |K| |G|) / |Y|, at least 1.
+/// The factor by which rounding is amplified in the stages: by the rounding of the slopes through
+/// K, and by that of Y = base + W G where both terms nearly cancel (stiff systems). It is (|base| +
+/// sum of |K| |G|) / |Y|, and at least 1.
 template <class Real, int Lanes, class State>
 Real rounding_amplification(const StageSystem<Real, Lanes>& system,
                             const SliceEvaluator<Pack<Real, Lanes>, Real>& evaluator,

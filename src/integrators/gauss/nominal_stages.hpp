@@ -12,21 +12,22 @@
 
 namespace hamjet {
 
-/// Slopes that were solved for on an earlier step: its size, and where on it the step begins for
-/// which they are a guess, 0 (its start) to 1 (its end).
+/// Slopes that were computed in an earlier step, with the size of that step and the position on it,
+/// from 0 (its start) to 1 (its end), at which the step begins for which they serve as a guess.
 template <class Real>
 struct KnownSlopes {
   Real start;
   Real step;
 };
 
-/// Degree 0 of a step's stages: the solution of their equations that is connected to the start.
+/// Degree 0 of a step's stages: the solution of their equations that is connected to the start of
+/// the step.
 template <class Real, int Lanes>
 class NominalStages {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// `start_slope` is to hold the slopes at the start of the step that is solved.
+  /// `start_slope` must hold the slopes at the start of the step that is being solved.
   NominalStages(const DynamicalSystem& system, const GaussSettings& settings,
                 StageSlopes<Real, Lanes>& stages, const SummedJet<Real, Lanes>& jet,
                 const GaussStepControl<Real, Lanes>& control, const std::vector<Real>& start_slope,
@@ -39,9 +40,9 @@ class NominalStages {
         start_slope_(start_slope),
         statistics_(statistics) {}
 
-  /// Solves for a step: from the slopes in the stages as a guess, from constant slopes if that
-  /// fails, and along growing step sizes where the solution found might not be the one connected to
-  /// the start. False where there is none.
+  /// Solves for a step, from the guess in the stages; if that fails, from constant slopes; and
+  /// along growing step sizes if the solution might not be the one connected to the start. Returns
+  /// false if there is no solution.
   bool solve(const Real& h, const std::optional<KnownSlopes<Real>>& guess) {
     if (guess) {
       stages_.reposition(guess->start, Real(h / guess->step));
@@ -62,21 +63,21 @@ class NominalStages {
     for (std::size_t c = 0; c < start_slope_.size(); ++c) stages_.slopes()[c] = P(start_slope_[c]);
   }
 
-  /// Newton can converge to a detached root of the stage equations, whose map is symplectic and
-  /// wrong. The slopes then have nothing to do with the slope at the start of the step.
-  /// The equations of a linear system have one solution only.
+  /// Newton's method can converge to a detached root of the stage equations, whose map is
+  /// symplectic but wrong. The slopes then have nothing in common with the slope at the start of
+  /// the step. The equations of a linear system have a single solution.
   bool is_suspicious(const Real& h) {
     if (is_linear_) return false;
     if (control_.start_defect(start_slope_) >
         0.5 * stages_.largest_slope() + 2 * expected_change()) {
       return true;
     }
-    // Controlled steps are short, and what they miss their error estimate sees.
+    // Controlled steps are short, and their error estimate would show a wrong root.
     return settings_.step && stages_.displacement(jet_.start()) > 4 * reach(h);
   }
 
-  /// By how much the slopes may differ between the start and the stages: |Dg| times the
-  /// displacement. In a stiff system that is almost anything; see reach.
+  /// The expected difference of the slopes between the start and the stages: |Dg| times the
+  /// displacement. In a stiff system almost any difference is possible; see reach.
   double expected_change() {
     return stages_.largest_gradient() * stages_.displacement(jet_.start());
   }
@@ -86,7 +87,7 @@ class NominalStages {
   }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
-  /// much the path is refined; a path that ends (a fold) has no continuation, however far it is
+  /// much, the path is refined. A path that ends (in a fold) has no continuation, however far it is
   /// refined.
   bool continue_from_start(const Real& h) {
     constexpr double first = 0x1p-10;

@@ -12,8 +12,8 @@
 namespace hamjet {
 
 /// The coefficients of a Gauss method as packs over the stages, in the numbers of an integration,
-/// with the residues of rounding to these. Lanes beyond the last stage repeat the first stage where
-/// they hold places of stages, so that these are finite, and are zero in weights.
+/// with the residues of rounding to these numbers. Lanes beyond the last stage repeat the first
+/// stage where they stand for places, so that all lanes are finite, and are zero in weights.
 template <class Real, int Lanes>
 struct StageCoefficients {
   using P = Pack<Real, Lanes>;
@@ -29,11 +29,12 @@ struct StageCoefficients {
   Rounded position_weights;      ///< b_i (1 - c_i)
   std::vector<Rounded> matrix;   ///< columns of A
   std::vector<Rounded> squared;  ///< columns of A^2
-  std::vector<P> modes;          ///< by degree, weights of the Legendre modes
+  std::vector<P> modes;          ///< weights of the Legendre modes, by degree
   P lagrange;
   P start;
 
-  /// Converted once for each number of stages, for that takes as long as some steps.
+  /// The coefficients, converted once for each number of stages, because the conversion takes as
+  /// long as some steps.
   static const StageCoefficients& of(const GaussTableau& tableau) {
     static std::array<std::once_flag, Lanes + 1> is_converted;
     static std::array<StageCoefficients, Lanes + 1> converted;

@@ -13,9 +13,9 @@
 
 namespace hamjet {
 
-/// A square matrix M of the stages' components, and Gauss-Jordan elimination with it. Columns are
-/// runs of one pack a component whose lanes are the stages, so that every update of a column is a
-/// run of packs; the row `component * stages + stage` is a lane.
+/// A square matrix M of the stages' components, and Gauss-Jordan elimination with it. A column
+/// consists of one pack for each component, whose lanes are the stages, so that every update of a
+/// column is a sequence of packs; the row `component * stages + stage` is a lane.
 template <class Real, int Lanes>
 class StageElimination {
  public:
@@ -37,8 +37,8 @@ class StageElimination {
     return &matrix_[(component * stages_ + stage) * components_];
   }
 
-  /// Puts M^-1 R in the place of the columns R; without pivoting where the matrix is dominated by
-  /// its diagonal. False if it is singular or not finite.
+  /// Replaces the columns R by M^-1 R, without pivoting if the matrix is dominated by its diagonal.
+  /// Returns false if the matrix is singular or not finite.
   bool solve(std::initializer_list<std::span<P>> columns, bool is_dominant) {
     if (is_dominant) {
       eliminate_in_order(columns);
@@ -59,8 +59,8 @@ class StageElimination {
     column[row / stages_].set_lane(static_cast<int>(row % stages_), value);
   }
 
-  /// The row to eliminate with: the diagonal unless another one is ten times larger (threshold
-  /// pivoting: the order of rows then rarely changes).
+  /// The pivot row: the diagonal unless another entry is ten times larger (threshold pivoting, by
+  /// which the order of rows rarely changes).
   std::optional<std::size_t> choose_pivot(std::size_t column) const {
     const P* m = &matrix_[column * components_];
     std::size_t best = pivot_row_.size();
@@ -80,7 +80,7 @@ class StageElimination {
     return best;
   }
 
-  /// Each row is divided by its pivot and taken from all others.
+  /// Each row is divided by its pivot and subtracted from all others.
   bool eliminate(const Columns& columns) {
     std::fill(used_.begin(), used_.end(), false);
     for (std::size_t r = 0; r < pivot_row_.size(); ++r) {
@@ -102,7 +102,7 @@ class StageElimination {
     return true;
   }
 
-  /// Calls for all columns that an elimination has still to do with.
+  /// Calls `reduce` for all columns that the elimination has still to change.
   template <class Reduce>
   void for_each_column(std::size_t first, const Columns& columns, const Reduce& reduce) {
     const auto of = [&](std::span<P> run) {
@@ -114,14 +114,16 @@ class StageElimination {
 
   /// Elimination without pivoting.
   void eliminate_in_order(const Columns& columns) {
-    // The usual numbers of components are unrolled: this is a good part of a step of order 1.
+    // The usual numbers of components are unrolled, because this is a large part of a step of order
+    // 1.
     if (components_ == 3) return eliminate_in_order<3>(columns);
     if (components_ == 2) return eliminate_in_order<2>(columns);
     eliminate_in_order<0>(columns);
   }
 
-  /// Components 0 means as many as there are. Pivots are taken four at a time where a component has
-  /// as many stages left, so that a column is read and written once for four.
+  /// Components 0 means that their number is known at run time only. Pivots are taken four at a
+  /// time if a component has that many stages left, so that a column is read and written once for
+  /// four pivots.
   template <std::size_t Components>
   void eliminate_in_order(const Columns& columns) {
     for (std::size_t c = 0; c < components_; ++c) {
@@ -133,9 +135,10 @@ class StageElimination {
     }
   }
 
-  /// With the block P of the pivots in their columns F, x = P^-1 v is left in the pivot rows v of a
-  /// column and column - F x in the others. As v - (P - I) x = x, the one formula does for all of
-  /// them, with P - I in the place of P.
+  /// Let F be the columns of the pivots and P their block in the pivots' rows. In a column with the
+  /// entries v in the pivots' rows, these become x = P^-1 v, and the column itself becomes column -
+  /// F x elsewhere. As v - (P - I) x = x, one formula serves all rows if P - I takes the place of
+  /// P.
   template <std::size_t Components, std::size_t Count>
   void eliminate_block(std::size_t component, std::size_t lane, const Columns& columns) {
     const std::size_t components = Components == 0 ? components_ : Components;
@@ -173,7 +176,7 @@ class StageElimination {
     });
   }
 
-  /// By elimination in order, as for the whole matrix.
+  /// Inversion of the block, by elimination in order as for the whole matrix.
   template <std::size_t Count>
   static void invert(std::array<std::array<Real, Count>, Count>& block) {
     for (std::size_t r = 0; r < Count; ++r) {
@@ -205,7 +208,7 @@ class StageElimination {
   std::size_t components_;
   std::size_t stages_;
   std::vector<P> matrix_;
-  std::vector<P> units_;  ///< by stage, 1 in its lane
+  std::vector<P> units_;  ///< for each stage, 1 in its lane
   std::vector<std::size_t> pivot_row_;
   std::vector<char> used_;
 };

@@ -8,8 +8,8 @@
 
 namespace hamjet {
 
-/// Fixed-point iteration for degree 0 of the stage equations, Y = base + W g(Y), of steps that are
-/// not stiff: an iteration costs about a hundredth of a factorisation.
+/// Fixed-point iteration for degree 0 of the stage equations, Y = base + W g(Y), in steps that are
+/// not stiff. An iteration costs about a hundredth of a factorisation.
 template <class Real, int Lanes>
 class StageIteration {
  public:
@@ -23,10 +23,10 @@ class StageIteration {
         slopes_(system.components()),
         inverse_scale_(system.components()) {}
 
-  /// Solves degree 0, from a guess of the slopes to slopes whose stages base + W slopes differ from
-  /// the solution by rounding alone; the slopes there are nearer to it by one iteration more.
-  /// `evaluate(stages, slopes)` gives g at stages. False, with the guess as it was, where the
-  /// iteration does not contract.
+  /// Solves degree 0, starting from a guess of the slopes. At the end base + W slopes differs from
+  /// the solution by rounding alone, and the slopes evaluated there are more accurate by one
+  /// further iteration. `evaluate(stages, slopes)` computes g at stages. Returns false, with the
+  /// guess unchanged, if the iteration does not contract.
   template <class State, class Evaluate>
   bool solve_constant_terms(const State& state, std::vector<P>& slopes, const Evaluate& evaluate) {
     const std::size_t m = system_.components();
@@ -39,8 +39,8 @@ class StageIteration {
       stages_[c] = base_[c] + (system_.couple(slopes[c]) + lost_[c]);
     }
     set_scale();
-    // The step's end is of the slopes at these stages: it is nearer to the solution than they are,
-    // its positions as one iteration more would be, its momenta by the root of that.
+    // The step's end uses the slopes at these stages, so that it is nearer to the solution than the
+    // stages themselves: its positions by a whole iteration, its momenta by the root of that.
     Contraction<Real> contraction(true);
     bool is_lost_known = false;
     while (true) {
@@ -55,11 +55,13 @@ class StageIteration {
         slopes = slopes_;
         return true;
       }
-      // An extrapolated guess can be far off: what counts is the size of the stages as they are. To
-      // take it is a good part of an iteration, and small changes leave it what it is.
+      // An extrapolated guess can be far off, so that the scale must be the size of the present
+      // stages. Taking it costs a large part of an iteration, and after small changes it is not
+      // taken anew.
       if (!(size <= smallest_rescaled)) set_scale();
       if (!is_lost_known && size <= Contraction<Real>::largest_remainder) {
-        // What the coefficients' rounding residues add is known to this part from now on.
+        // From now on the contribution of the coefficients' rounding residues is known to this
+        // fraction.
         set_lost(slopes_);
         is_lost_known = true;
       }
@@ -67,18 +69,18 @@ class StageIteration {
   }
 
  private:
-  /// Relative changes up to this leave the scale of the stages as it is.
+  /// Relative changes up to this number do not require a new scale of the stages.
   static constexpr double smallest_rescaled = 0x1p-4;
 
-  /// Changes count relative to the largest of a component's stages, or of the base.
+  /// Changes count relative to the largest stage of a component, or to its base.
   void set_scale() {
     for (std::size_t c = 0; c < stages_.size(); ++c) {
       inverse_scale_[c] = inverse_scale(stages_[c], base_[c]);
     }
   }
 
-  /// Sets Y = base + (W slopes_ + lost); returns the largest change. The lost part is below the
-  /// rounding of the base, and would always vanish if it were added to them.
+  /// Sets Y = base + (W slopes_ + lost); returns the largest change. The lost part is smaller than
+  /// the rounding of the base, and would always vanish if it were added to the base.
   Real replace_stages() {
     P largest(Real(0));
     for (std::size_t c = 0; c < base_.size(); ++c) {
@@ -91,7 +93,7 @@ class StageIteration {
 
   const StageSystem<Real, Lanes>& system_;
   std::vector<P> base_;
-  std::vector<P> lost_;  ///< of base + W g, the coefficients' rounding residues
+  std::vector<P> lost_;  ///< contribution of the coefficients' rounding residues to base + W g
   std::vector<P> stages_;
   std::vector<P> slopes_;
   std::vector<P> inverse_scale_;

@@ -15,16 +15,17 @@
 
 namespace hamjet {
 
-/// The stages of one step: degree 0 by fixed-point iteration, or by Newton's method on the slopes G
-/// where that does not contract; the higher degrees through the linearisation. Y_c are the inputs
-/// of the evaluator, G_c the slopes g(Y)_c.
+/// The stages of one step. Degree 0 is solved by fixed-point iteration or, where this does not
+/// contract, by Newton's method on the slopes G; the higher degrees follow from the linearisation.
+/// Y_c are the inputs of the evaluator, G_c the slopes g(Y)_c.
 template <class Real, int Lanes>
 class StageSlopes {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// So many monomials are solved for at once. Numbers of monomials of a degree, binomial
-  /// coefficients, are often multiples of it; and 21 sums of three components fit the registers.
+  /// The number of monomials that are solved for at once. The numbers of monomials of a degree,
+  /// which are binomial coefficients, are often multiples of it, and the 21 sums of three
+  /// components fit the registers.
   static constexpr std::size_t tile = 7;
 
   StageSlopes(const DynamicalSystem& system, const GaussTableau& tableau, SpacePointer space,
@@ -43,7 +44,7 @@ class StageSlopes {
   SliceEvaluator<P, Real>& evaluator() { return evaluator_; }
   std::vector<P>& slopes() { return slopes_; }
 
-  /// Slope g_c = (M^-1 F)_c, or z'_c, from the evaluator's outputs of one monomial.
+  /// The slope g_c = (M^-1 F)_c, or z'_c, of one monomial, from the evaluator's outputs.
   P slope(std::size_t c, std::size_t monomial = 0) const {
     if (!system_.second_order() || system_.unit_mass()) return evaluator_.output(c)[monomial];
     P sum(Real(0));
@@ -53,15 +54,15 @@ class StageSlopes {
     return sum;
   }
 
-  /// The collocation polynomial of the slopes at the start of the step.
+  /// The collocation polynomial of the slopes, evaluated at the start of the step.
   Real slope_at_start(std::size_t c) const { return dot(system_.coefficients().start, slopes_[c]); }
 
-  /// Evaluates the collocation polynomial of the slopes at start + length c_i, the unit being its
-  /// own step: the first guess of the slopes of another step.
+  /// Evaluates the collocation polynomial of the slopes at start + length c_i, in units of its own
+  /// step. The results are the first guess of the slopes of another step.
   void reposition(const Real& start, const Real& length) {
     const std::size_t s = system_.stages();
     const P x = P(start) + P(length) * system_.nodes();
-    // The products of x - c_k over k < j, and then those over k > j.
+    // The products of x - c_k over k < j, which are then multiplied by those over k > j.
     std::array<P, Lanes> basis;
     P product(Real(1));
     for (std::size_t j = 0; j < s; ++j) {
@@ -108,7 +109,7 @@ class StageSlopes {
     return static_cast<double>(largest_magnitude(largest));
   }
 
-  /// The largest distance of a stage's component from a point.
+  /// The largest distance, over the stages, of a component from a point.
   template <class State>
   double displacement(const State& state) {
     P largest(Real(0));
@@ -128,18 +129,18 @@ class StageSlopes {
     return sum;
   }
 
-  /// Whether the slopes are Newton's. Those are good to round-off where the ones evaluated at the
-  /// stages, the small difference of large terms in a stiff system, are not; of fixed-point
-  /// iteration the evaluated ones are better.
+  /// Whether the slopes are those of Newton's method. In a stiff system these are good to
+  /// round-off, while slopes evaluated at the stages are small differences of large terms; after
+  /// fixed-point iteration the evaluated slopes are better.
   bool is_by_newton() const { return is_by_newton_; }
-  /// Takes the slopes of an earlier solution.
+  /// Restores the slopes of an earlier solution.
   void restore(const std::vector<P>& slopes, bool is_by_newton) {
     slopes_ = slopes;
     is_by_newton_ = is_by_newton;
   }
 
-  /// Puts Newton's slopes in the place of the evaluated ones, at degree 0. For unit mass only,
-  /// where slopes and forces are the same.
+  /// Replaces the evaluated slopes by those of Newton's method, at degree 0. This is for unit mass
+  /// only, where slopes and forces are the same.
   void store_newton_slopes() {
     if (!is_by_newton_ || !system_.unit_mass()) return;
     for (std::size_t c = 0; c < system_.components(); ++c) {
@@ -148,7 +149,7 @@ class StageSlopes {
     }
   }
 
-  /// Solves degree 0 from the slopes that stand in slopes(); true if it came to round-off.
+  /// Solves degree 0, starting from slopes(); returns true if the solution was found to round-off.
   template <class State>
   bool solve_constant_terms(const State& state, IntegrationStatistics& statistics) {
     const auto evaluate = [&](const std::vector<P>& stages, std::vector<P>& slopes) {
@@ -187,8 +188,8 @@ class StageSlopes {
         slopes_[c] += residual[c];
         for (std::size_t k = 0; k < m; ++k) slopes_[c] += slope_gradient(c, k) * change[k];
       }
-      // Once the correction stops shrinking, what is left is round-off if it is no larger than what
-      // the rounding of the slopes alone causes: with stiff systems that is far above epsilon.
+      // Once the correction stops shrinking, it is round-off, provided that it is no larger than
+      // what the rounding of the slopes alone causes; in stiff systems this is far above epsilon.
       const bool is_stalled = size >= previous / 4;
       if (size <= 2 * epsilon ||
           (is_stalled &&
@@ -198,14 +199,14 @@ class StageSlopes {
             std::max(statistics.most_newton_iterations, iteration + 1);
         return true;
       }
-      // The old linearisation serves as long as it contracts well.
+      // The old linearisation is kept as long as it contracts well.
       if (size > previous / 20) is_factorised = false;
       previous = size;
     }
     return false;
   }
 
-  /// Evaluates the stages and all values there from the slopes of an earlier solution.
+  /// Evaluates the stages, and all values there, from the slopes of an earlier solution.
   template <class State>
   void evaluate_at_slopes(const State& state, IntegrationStatistics& statistics) {
     place_stages(state);
@@ -213,15 +214,14 @@ class StageSlopes {
     ++statistics.nominal_evaluations;
   }
 
-  /// Forms B, and K where it is asked for, at the stages as they stand; false if the matrix is
-  /// singular.
+  /// Forms B and, if asked for, K at the present stages; returns false if the matrix is singular.
   bool factorise(Response response = Response::formed) {
     return system_.factorise(
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, response);
   }
 
-  /// Does what solve_degree does, by fixed-point iteration without a factorisation. False where it
-  /// does not contract.
+  /// As solve_degree, but by fixed-point iteration without a factorisation. Returns false if the
+  /// iteration does not contract.
   template <class State>
   bool iterate_degree(int d, const State& state) {
     if (system_.second_order() && !system_.unit_mass() && d >= 2) apply_inverse_mass(d);
@@ -234,7 +234,7 @@ class StageSlopes {
   }
 
   /// Forms the degree-d slices of the stages from those of the outputs' remainders and of the
-  /// state: Y_d = K R_d + B z_d; `state(k, monomial)` is a coefficient of the k-th component.
+  /// state: Y_d = K R_d + B z_d. `state(k, monomial)` is a coefficient of the k-th component.
   template <class State>
   void solve_degree(int d, const State& state) {
     const std::size_t first = space_->first(d);
@@ -248,7 +248,7 @@ class StageSlopes {
             for (; k < last; ++k) solve_tile<1, Components>(c, d, k, state);
           }
         };
-    // Three components share what is read of the remainders.
+    // Three components together read the remainders only once.
     if (system_.components() == 3) return solve(std::integral_constant<std::size_t, 3>{});
     solve(std::integral_constant<std::size_t, 1>{});
   }
@@ -306,7 +306,7 @@ class StageSlopes {
     }
   }
 
-  /// Forms the remainders of M^-1 F. An affine force has none and is left out.
+  /// Forms the remainders of M^-1 F. An affine force has no remainder and is skipped.
   void apply_inverse_mass(int d) {
     mapped_.resize(system_.components());
     for (std::size_t c = 0; c < system_.components(); ++c) {
@@ -335,8 +335,8 @@ class StageSlopes {
     return is_mapped ? mapped_[c].data() : evaluator_.remainder(c);
   }
 
-  /// Forms Y of `Components` components from c on for `Width` monomials at once: each entry of K is
-  /// loaded once for all of the monomials, each remainder once for all of the components, which
+  /// Forms Y of `Components` components from c on for `Width` monomials at once. Each entry of K is
+  /// loaded once for all these monomials, and each remainder once for all these components, which
   /// stand side by side in K and B.
   template <std::size_t Width, std::size_t Components, class State>
   void solve_tile(std::size_t c, int d, std::size_t monomial, const State& state) {

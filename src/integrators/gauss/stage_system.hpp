@@ -17,24 +17,24 @@
 
 namespace hamjet {
 
-/// Whether K, see StageSystem, is formed beside B; for an end map, only where that does not follow
-/// from B.
+/// Whether K, see StageSystem, is formed beside B. `for_end_map` forms K only if the end map does
+/// not follow from B.
 enum class Response { left_out, for_end_map, formed };
 
 /// The linear system of the stage equations of one step, and its solution operator.
 ///
-/// Unknown are m components Y_c, each a pack over the stages i, with
+/// The unknowns are m components Y_c, each a pack over the stages i, with
 ///
 ///   Y = base + (W (x) I) G,   G_j = g(Y_j),
 ///
 /// where for a general system Y = z, g = z', W = h A and base_i = z_n; and for a second-order
-/// system Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (elimination of p).
+/// system Y = q, g = M^-1 F(q), W = h^2 A^2 and base_i = q_n + h c_i M^-1 p_n (p is eliminated).
 /// One linearisation serves Newton's iteration and every monomial of every degree:
 ///
 ///   (I - W (x) Dg) Y_d = base_d + W R_d   =>   Y_d = K R_d + B z_d .
 ///
-/// K and B are kept as packs over the output stage i, so that applying them to a monomial is a run
-/// of broadcast multiply-adds.
+/// K and B are stored as packs over the output stage i, so that applying them to a monomial is a
+/// sequence of broadcast multiply-adds.
 template <class Real, int Lanes>
 class StageSystem {
  public:
@@ -85,7 +85,7 @@ class StageSystem {
 
   /// The sum over j of W_ij G_j, for one component.
   P couple(const P& slopes) const {
-    // Four sums, for each addition waits for the one before.
+    // Four partial sums, because each addition waits for the one before.
     std::array<P, 4> sums;
     for (P& sum : sums) sum = P(Real(0));
     std::size_t j = 0;
@@ -98,7 +98,7 @@ class StageSystem {
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) * P(scale_);
   }
 
-  /// The same for several sums side by side, which so do not wait for one another.
+  /// Several sums side by side, so that they do not wait for one another.
   template <std::size_t Count>
   void couple(const std::array<P, Count>& slopes, std::array<P, Count>& sums) const {
     std::array<P, Count> added = [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -114,10 +114,11 @@ class StageSystem {
     for (std::size_t i = 0; i < Count; ++i) sums[i] = added[i] * P(scale_);
   }
 
-  /// What the coefficients' rounding residues add to base + couple. The rounded coefficients alone
-  /// are those of a method that is neither symplectic nor symmetric to the last digit: its energy
-  /// drifts with time, where that of random rounding only wanders (Hairer, McLachlan and
-  /// Razakarivony, Achieving Brouwer's law with implicit Runge-Kutta methods, BIT 48 (2008) 231).
+  /// The contribution of the coefficients' rounding residues to base + couple. The rounded
+  /// coefficients alone are those of a method that is neither symplectic nor symmetric to the last
+  /// digit. With them the energy drifts with time, where random rounding would only make it wander
+  /// (Hairer, McLachlan and Razakarivony, Achieving Brouwer's law with implicit Runge-Kutta
+  /// methods, BIT 48 (2008) 231).
   template <class State>
   P lost(std::size_t c, const State& state, const P& slopes) const {
     P sum(Real(0));
@@ -140,11 +141,11 @@ class StageSystem {
   const P& response(std::size_t from, std::size_t stage, std::size_t c) const {
     return response_[(from * stages_ + stage) * components_ + c];
   }
-  /// The block B_(c, k), k an index into the state.
+  /// The block B_(c, k), where k is an index into the state.
   const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
 
-  /// Forms B, and K where it is asked for, from the slopes' gradients Dg_(c, from), packs over the
-  /// stages. False if the matrix is singular or not finite.
+  /// Forms B and, if asked for, K from the slopes' gradients Dg_(c, from), packs over the stages.
+  /// Returns false if the matrix is singular or not finite.
   template <class Gradient>
   bool factorise(const Gradient& gradient, Response response) {
     const bool is_dominant = has_dominant_diagonal(gradient);
@@ -156,10 +157,10 @@ class StageSystem {
     const std::span<P> response_columns(response_.data(), has_response ? response_.size() : 0);
     return elimination_.solve({response_columns, base_}, is_dominant);
   }
-  /// Whether what forces at the stages of the matrix that was factorised last (for remainders) do
-  /// to the end of the step follows from B, see EndMap: where Dg is symmetric, as it is of forces
-  /// that are gradients, and the matrix dominated by its diagonal, so that B has no larger
-  /// roundings than K.
+  /// Whether the effect of forces at the stages on the end of the step follows from B, see EndMap,
+  /// for the matrix that was last factorised for remainders. This is so if Dg is symmetric, as for
+  /// forces that are gradients, and if the matrix is dominated by its diagonal, so that B has no
+  /// larger rounding errors than K.
   bool end_follows_from_base() const { return end_follows_from_base_; }
 
  private:
@@ -174,12 +175,12 @@ class StageSystem {
     return sum;
   }
 
-  /// Whether every row of W (x) Dg has magnitudes that add up to at most 1/2, as at all steps that
-  /// converge well: the matrix I - W (x) Dg is dominated by its diagonal then, by at least 1/2 in
-  /// every row, and so is what a few pivots leave of it, whose blocks have inverses of at most 2 in
-  /// the maximum norm (Varah, Linear Algebra Appl. 11 (1975) 3). Elimination needs no pivoting,
-  /// also by blocks (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., theorem 9.9
-  /// and sections 13.3 and 14.4). False where a number is not finite.
+  /// Whether the magnitudes of every row of W (x) Dg add up to at most 1/2, as in all steps that
+  /// converge well. The matrix I - W (x) Dg is then dominated by its diagonal, by at least 1/2 in
+  /// every row. So is the rest of the matrix after some pivots, whose blocks have inverses of at
+  /// most 2 in the maximum norm (Varah, Linear Algebra Appl. 11 (1975) 3). Elimination needs no
+  /// pivoting, not even by blocks (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
+  /// theorem 9.9 and sections 13.3 and 14.4). Returns false if a number is not finite.
   template <class Gradient>
   bool has_dominant_diagonal(const Gradient& gradient) const {
     P largest(Real(0));
@@ -198,8 +199,9 @@ class StageSystem {
     return largest_magnitude(largest) <= Real(0.5);
   }
 
-  /// Whether Dg is symmetric at all stages but for rounding: what it is not enters the end by the
-  /// same part. A field need not be a gradient: one that is scaled by a variable of its own is not.
+  /// Whether Dg is symmetric at all stages, apart from rounding; a relative asymmetry enters the
+  /// end of the step with the same size. A field need not be a gradient: a field that is scaled by
+  /// one of its own variables is not.
   template <class Gradient>
   bool is_symmetric(const Gradient& gradient) const {
     P largest(Real(0));
@@ -247,14 +249,14 @@ class StageSystem {
   std::size_t components_;
   std::size_t state_size_;
   const StageCoefficients<Real, Lanes>& coefficients_;
-  /// Columns of A, or of A^2 for a second-order system.
+  /// The columns of A or, for a second-order system, of A^2.
   const std::vector<typename StageCoefficients<Real, Lanes>::Rounded>& coupling_;
   bool unit_mass_ = true;
   bool end_follows_from_base_ = false;
   Real step_ = 0;
   Real scale_ = 0;
   std::vector<Real> inverse_mass_;
-  StageElimination<Real, Lanes> elimination_;  ///< of I - W (x) Dg
+  StageElimination<Real, Lanes> elimination_;  ///< elimination of I - W (x) Dg
   std::vector<P> response_;
   std::vector<P> base_;
 };

@@ -9,8 +9,8 @@
 
 namespace hamjet {
 
-/// How far the positions, or the components of a system of first order, go in a step h with the
-/// slopes at its start. `start(i)` is component i of the state there.
+/// The distance by which the positions, or the components of a system of first order, move in a
+/// step h with the slopes at its start. `start(i)` is component i of the state there.
 template <class Real, int Lanes, class Start>
 double step_reach(const StageSystem<Real, Lanes>& system, const std::vector<Real>& slopes,
                   const Start& start, const Real& h) {

@@ -18,7 +18,8 @@
 namespace hamjet {
 namespace {
 
-/// Orbits of one task: many enough that lanes that have run out of orbits at its end cost little.
+/// The number of orbits of one task. It is large, so that lanes without an orbit at the end of a
+/// task cost little.
 constexpr std::size_t most_in_a_task = 256;
 
 bool has_unit_mass(const DynamicalSystem& system) {
@@ -39,7 +40,7 @@ bool fits_lanes(const FlowProblem<double>& problem, const GaussSettings& setting
 using Next = std::function<std::optional<LaneStart>()>;
 using Done = std::function<void(LaneEnd)>;
 
-/// Runs orbits in lanes, with the loops over a space's three dimensions, or a plane's two,
+/// Runs orbits in lanes. Loops over the three dimensions of space, or the two of a plane, are
 /// unrolled.
 void run_in_lanes(const FlowProblem<double>& problem, const GaussSettings& settings,
                   int controlled_order, const Next& next, const Done& done) {
@@ -89,7 +90,7 @@ class Task {
     return problem;
   }
 
-  /// The jets of all orbits that lanes suffice for, with the settings' own tolerance.
+  /// The jets, with the settings' own tolerance, of all orbits for which lanes suffice.
   void run_jets(const std::function<void()>& advance) {
     const IntegrationClock clock;
     std::size_t i = first_;
@@ -109,8 +110,8 @@ class Task {
     share(clock.seconds(), [](IntegrationStatistics& s, double x) { s.wall_seconds += x; });
   }
 
-  /// What choose_step_tolerance does with its first trial; the jets that do not pass are left to a
-  /// run alone, which tries others.
+  /// The same check as in the first trial of choose_step_tolerance. Jets that do not pass are left
+  /// to a run of their own, which tries other tolerances.
   void check(const std::function<void()>& advance) {
     const IntegrationClock clock;
     const double asked = *settings_.tolerance;
@@ -175,7 +176,7 @@ class Task {
     return std::all_of(state.begin(), state.end(), [](double x) { return std::isfinite(x); });
   }
 
-  /// Adds an equal share of seconds to the orbits that have a jet.
+  /// Adds an equal share of the seconds to each orbit that has a jet.
   template <class Add>
   void share(double seconds, const Add& add) {
     const auto has_jet = [](const ManyFlowsOutcome& outcome) { return !outcome.jet.empty(); };

@@ -7,8 +7,8 @@
 
 namespace hamjet {
 
-/// The coefficients of a Gauss method as plain numbers, for orbits as lanes: those of
-/// StageCoefficients, by stage, matrices by rows.
+/// The coefficients of a Gauss method as plain numbers, for orbits as lanes. They are those of
+/// StageCoefficients, by stage; matrices are stored by rows.
 struct LaneCoefficients {
   std::size_t stages = 0;
   std::vector<double> nodes, lost_nodes;

@@ -12,13 +12,14 @@ namespace hamjet {
 ///
 ///   (I - W (x) Dg) Y = R ,
 ///
-/// by elimination in blocks of the m components, without pivoting: see StageSystem, whose matrix
-/// this is. With the stages as rows of blocks, A = L U where the blocks of U on the diagonal are
-/// the identity; each block is worked on in registers. Components 0 means as many as there are.
+/// solved by elimination in blocks of the m components, without pivoting; the matrix is that of
+/// StageSystem. With the stages as rows of blocks, A = L U, where the diagonal blocks of U are the
+/// identity; each block is processed in registers. Components 0 means that their number is known at
+/// run time only.
 template <int Components>
 class LaneElimination {
  public:
-  /// So many columns are solved for together; they stand at (i m + c) width + column.
+  /// The number of columns that are solved for together; they stand at (i m + c) width + column.
   static constexpr std::size_t width = 3;
 
   /// `coupling` has the entries a_ij of W / scale, by rows.
@@ -29,7 +30,7 @@ class LaneElimination {
         blocks_(stages * stages * components * components),
         scaled_(stages * components * components) {}
 
-  /// Takes the gradients, as LaneField has them.
+  /// Takes the gradients in the layout of LaneField.
   [[gnu::flatten]] void take(const std::vector<Orbits>& gradients, const Orbits& scale) {
     const std::size_t m = components();
     for (std::size_t j = 0; j < stages_; ++j) {
@@ -45,10 +46,10 @@ class LaneElimination {
   }
 
   /// Eliminates the matrix of the gradients that were taken. Returns, for each orbit, the largest
-  /// entry of L and U and of the inverses on the diagonal: what elimination without pivoting adds
-  /// to the rounding of A grows with |L| |U| (Higham, Accuracy and Stability of Numerical
-  /// Algorithms, 2nd ed., theorem 9.3). Where the diagonal dominates it is at most 2 (theorem 9.9),
-  /// and at steps that converge hardly more, for W is nearly triangular.
+  /// entry of L, U and the inverted diagonal blocks. The rounding errors of elimination without
+  /// pivoting grow with |L| |U| (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
+  /// theorem 9.3). If the diagonal dominates, this number is at most 2 (theorem 9.9); in steps that
+  /// converge it is hardly larger, because W is nearly triangular.
   [[gnu::flatten]] Orbits factorise() {
     const std::size_t m = components();
     const std::size_t row = stages_ * m * m;
@@ -60,7 +61,7 @@ class LaneElimination {
         for (std::size_t c = 0; c < m && i == j; ++c) target[c * m + c] += Orbits(1.0);
       }
     }
-    // Crout's order: each block is finished at once, its sums in registers.
+    // Crout's order: each block is finished at once, with its sums in registers.
     for (std::size_t k = 0; k < stages_; ++k) {
       for (std::size_t i = k; i < stages_; ++i) {
         subtract_products<Components>(block(i, 0), block(0, k), row, k, block(i, k));
@@ -76,7 +77,7 @@ class LaneElimination {
     return growth;
   }
 
-  /// Solves for `width` columns, in place.
+  /// Solves for `width` columns in place.
   [[gnu::flatten]] void solve(Orbits* columns) const {
     const std::size_t size = components() * width;
     for (std::size_t k = 0; k < stages_; ++k) {
@@ -100,7 +101,7 @@ class LaneElimination {
     return &blocks_[(i * stages_ + j) * components() * components()];
   }
 
-  /// Gauss and Jordan's inverse of a block on the diagonal, in place.
+  /// The Gauss-Jordan inverse of a diagonal block, in place.
   void invert(Orbits* a) const {
     const std::size_t m = components();
     for (std::size_t k = 0; k < m; ++k) {
@@ -116,7 +117,7 @@ class LaneElimination {
     }
   }
 
-  /// b = a b for a block b of `Columns` columns.
+  /// b = a b, for a block b with `Columns` columns.
   template <int Columns>
   void multiply(const Orbits* a, Orbits* b) const {
     if constexpr (Components > 0 && Columns > 0) {
@@ -145,8 +146,9 @@ class LaneElimination {
       }
     }
   }
-  /// c -= sum of a_p b_p over the first `count` blocks of a row, which stand side by side, and of a
-  /// column, which stand `stride` apart; b and c have `Columns` columns.
+  /// c -= sum of a_p b_p over the first `count` blocks of a row and of a column. The blocks of the
+  /// row stand side by side, those of the column are `stride` apart; b and c have `Columns`
+  /// columns.
   template <int Columns>
   void subtract_products(const Orbits* a, const Orbits* b, std::size_t stride, std::size_t count,
                          Orbits* c) const {
@@ -182,7 +184,7 @@ class LaneElimination {
   std::size_t components_;
   std::size_t stages_;
   std::vector<double> coupling_;
-  std::vector<Orbits> blocks_;  ///< by rows of blocks, each by rows
+  std::vector<Orbits> blocks_;  ///< rows of blocks; each block by rows
   std::vector<Orbits> scaled_;  ///< scale Dg, by stage
   mutable std::vector<Orbits> copy_;
 };

@@ -9,8 +9,8 @@
 
 namespace hamjet {
 
-/// The slopes g of orbits side by side at the stages of their steps, with their derivatives by the
-/// m inputs of the evaluated list. Numbers of stage i and component c stand at c s + i.
+/// The slopes g of orbits side by side at the stages of their steps, and their derivatives by the m
+/// inputs of the evaluated list. The number of stage i and component c stands at c s + i.
 class LaneField {
  public:
   LaneField(const DynamicalSystem& system, std::size_t stages, int order)
@@ -44,7 +44,7 @@ class LaneField {
     }
   }
 
-  /// Sets the slopes and d g_c / d Y_k, which stands at (c m + k) s + i.
+  /// Sets the slopes, and d g_c / d Y_k, which stands at (c m + k) s + i.
   void evaluate(const std::vector<Orbits>& places, std::vector<Orbits>& slopes,
                 std::vector<Orbits>& gradients) {
     for (std::size_t first = 0; first < stages_; first += half) {
@@ -59,14 +59,14 @@ class LaneField {
     }
   }
 
-  /// Sets the slopes at one point, of which component c is `place(c)`.
+  /// Sets the slopes at one point, whose component c is `place(c)`.
   template <class Place>
   void evaluate_at(const Place& place, std::vector<Orbits>& slopes) {
     for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = place(c);
     point_.evaluate_constant_values();
     for (std::size_t c = 0; c < inputs_; ++c) slopes[c] = point_.output(c)[0];
   }
-  /// The largest sum of magnitudes of a row of Dg at the point that was evaluated last.
+  /// The largest sum of magnitudes of a row of Dg at the last evaluated point.
   Orbits gradient_norm() {
     point_.evaluate_constant_terms();
     Orbits norm(0.0);
@@ -80,8 +80,8 @@ class LaneField {
     return norm;
   }
 
-  /// Sets, for orders of 2 and more, the coefficients of the monomials of degree 2 in the inputs'
-  /// deviations: that of Y_a Y_b, a <= b, in g_c stands at ((c m + a) m + b) s + i.
+  /// For orders of 2 and more, sets the coefficients of the monomials of degree 2 in the inputs'
+  /// deviations: the coefficient of Y_a Y_b, a <= b, in g_c stands at ((c m + a) m + b) s + i.
   void evaluate_second(const std::vector<Orbits>& places, std::vector<Orbits>& second) {
     for (std::size_t i = 0; i < stages_; ++i) {
       for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = places[c * stages_ + i];
@@ -101,14 +101,15 @@ class LaneField {
   }
 
  private:
-  /// So many stages are evaluated together, or twice as many where there are no derivatives: of one
-  /// alone each operation would wait for the one before, and of more the values outgrow the cache.
+  /// The number of stages that are evaluated together; twice as many without derivatives. With a
+  /// single stage each operation would wait for the one before, and with more stages the values
+  /// would not fit the cache.
   static constexpr std::size_t half = 4;
   template <std::size_t Count>
   using Group = SliceEvaluator<Pack<double, static_cast<int>(Count* orbit_lanes)>, double>;
 
-  /// Puts the places of stages from `first` on into a group; beyond the last stage the first of the
-  /// group is repeated.
+  /// Puts the places of the stages from `first` on into a group; beyond the last stage the first
+  /// one of the group is repeated.
   template <class Evaluator>
   void put(const std::vector<Orbits>& places, std::size_t first, Evaluator& group) const {
     for (std::size_t c = 0; c < inputs_; ++c) {

@@ -20,25 +20,25 @@
 
 namespace hamjet {
 
-/// Where an orbit starts: its number, its jet there, and the tolerance of its steps.
+/// The start of an orbit: its number, its jet, and the tolerance of its steps.
 struct LaneStart {
   std::size_t orbit = 0;
   FlowJet<double> jet;
   double tolerance = 0;
 };
 
-/// What became of an orbit in a lane.
+/// The outcome of an orbit in a lane.
 struct LaneEnd {
   std::size_t orbit = 0;
-  bool is_solved = false;  ///< else something was met that needs more than lanes have
+  bool is_solved = false;  ///< if false, the orbit needs a method that lanes do not have
   FlowJet<double> jet;
   IntegrationStatistics statistics;
 };
 
 /// A Gauss integration of orbits side by side over one duration, each in a lane with steps of its
-/// own, chosen as GaussIntegrator chooses them: a lane whose orbit has ended takes the next one, so
-/// that orbits of few steps do not wait for those of many. What is an orbit's result does not
-/// depend, to the last bit, on the others.
+/// own, which are chosen as GaussIntegrator chooses them. A lane whose orbit has ended takes the
+/// next orbit, so that orbits of few steps do not wait for those of many. To the last bit, the
+/// result of an orbit does not depend on the others.
 template <int Components>
 class LaneIntegrator {
  public:
@@ -57,7 +57,7 @@ class LaneIntegrator {
         control_(*problem.system, stages_, controlled_order),
         start_slopes_(stages_.components()) {}
 
-  /// Integrates orbits until there is no next one.
+  /// Integrates orbits until `next` has no more.
   void run(const Next& next, const Done& done) {
     while (fill(next)) {
       step();
@@ -73,7 +73,7 @@ class LaneIntegrator {
   }
 
  private:
-  /// Where the slopes of the next step are guessed from.
+  /// The origin of the guess for the slopes of the next step.
   enum class Guess { none, last_step, repeated_step };
 
   struct Lane {
@@ -84,10 +84,10 @@ class LaneIntegrator {
     double time = 0;
     double lost_time = 0;  ///< see add_compensated
     double proposed = 0;
-    double step = 0;  ///< that is being tried
+    double step = 0;  ///< the step that is being tried
     double guessed_from = 0;
     Guess guess = Guess::none;
-    long remaining_steps = 0;  ///< with fixed steps
+    long remaining_steps = 0;  ///< for fixed steps
     IntegrationStatistics statistics;
   };
 
@@ -95,7 +95,7 @@ class LaneIntegrator {
     return [this](std::size_t c) -> const Orbits& { return jets_.state(c); };
   }
 
-  /// Gives orbits to the lanes that have none; false if all are without.
+  /// Gives orbits to the lanes that have none; returns false if no lane has an orbit.
   bool fill(const Next& next) {
     EachOrbit is_new{};
     bool is_any_new = false;
@@ -135,7 +135,8 @@ class LaneIntegrator {
     }
   }
 
-  /// One step of every lane, of which some may be refused and tried again with the next.
+  /// One step of every lane. Refused steps are tried again together with the next steps of the
+  /// others.
   void step() {
     choose_steps();
     guess_slopes();
@@ -222,7 +223,7 @@ class LaneIntegrator {
     }
   }
 
-  /// Not zero where a slope at the new states is not finite.
+  /// Not zero for lanes in which a slope at the new state is not finite.
   Orbits check_finite() const {
     Orbits sum(0.0);
     for (const Orbits& slope : start_slopes_) sum += slope - slope;
@@ -268,7 +269,7 @@ class LaneIntegrator {
     if (statistics.steps >= most_steps) lane.has_failed = true;
   }
 
-  /// An orbit of more steps is worth a run of its own, which says how far it is.
+  /// An orbit of more steps is integrated by itself, because such a run reports its progress.
   static constexpr long most_steps = 1000000;
 
   LaneEnd end(std::size_t k) {
@@ -290,7 +291,7 @@ class LaneIntegrator {
   LaneStages stages_;
   LaneJets<Components> jets_;
   LaneStepControl control_;
-  std::vector<Orbits> start_slopes_;  ///< at the starts of the next steps
+  std::vector<Orbits> start_slopes_;  ///< slopes at the starts of the next steps
   std::array<Lane, orbit_lanes> lanes_;
   bool is_exhausted_ = false;
 };

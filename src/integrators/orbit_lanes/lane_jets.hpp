@@ -14,13 +14,13 @@
 
 namespace hamjet {
 
-/// The jets of orbits side by side, of order 0 to 2, as they advance from step to step. A field of
-/// m inputs is expanded in these inputs alone, at each stage; with its second derivatives G_ab and
-/// the stages' linear parts Y_a the remainder of degree 2 is
+/// The jets of orbits side by side, of order 0 to 2, and their steps. At each stage a field of m
+/// inputs is expanded in these inputs alone. With its second derivatives G_ab and the stages'
+/// linear parts Y_a, the remainder of degree 2 is
 ///
 ///   R_kl = sum over a <= b of G_ab (Y_ak Y_bl + Y_al Y_bk) ,   half of that for k = l ,
 ///
-/// and each degree is solved for from Y_d = base_d + W (R_d + Dg Y_d), as in StageSystem.
+/// and each degree follows from Y_d = base_d + W (R_d + Dg Y_d), as in StageSystem.
 template <int Components>
 class LaneJets {
  public:
@@ -52,7 +52,8 @@ class LaneJets {
     }
   }
 
-  /// Of entries in an elimination, see LaneElimination: a step at which they grow more is refused.
+  /// The largest allowed growth of entries in an elimination, see LaneElimination; a step with more
+  /// growth is refused.
   static constexpr double most_growth = 8;
 
   /// Component c of the states.
@@ -79,15 +80,16 @@ class LaneJets {
     return result;
   }
 
-  /// Takes the equations of the degrees 1 and 2, and eliminates them unless they are iterated for.
-  /// The growth of the entries, see LaneElimination; 0 where nothing was eliminated.
+  /// Takes the equations of the degrees 1 and 2, and eliminates them unless they are iterated.
+  /// Returns the growth of the entries, see LaneElimination; 0 if nothing was eliminated.
   Orbits take_equations(const LaneStages& stages) {
     elimination_.take(stages.gradients(), stages.scale());
     is_eliminated_ = false;
     return is_iterated_ ? Orbits(0.0) : elimination_.factorise();
   }
 
-  /// Takes the step of the orbits that `taken` flags. Flags those whose columns did not converge.
+  /// Takes the step of the orbits that `taken` flags. Returns flags of the orbits whose columns did
+  /// not converge.
   Orbits advance(LaneStages& stages, const Orbits& taken) {
     failed_ = Orbits(0.0);
     if (order_ >= 2) stages.field().evaluate_second(stages.places(), second_);
@@ -102,7 +104,8 @@ class LaneJets {
   }
 
  private:
-  /// Up to so many variables the columns are iterated for, as in GaussIntegrator::solve_degrees.
+  /// Up to this number of variables the columns are solved by iteration, as in
+  /// GaussIntegrator::solve_degrees.
   static constexpr std::size_t most_iterated = 2;
 
   static constexpr std::size_t width = LaneElimination<Components>::width;
@@ -160,7 +163,7 @@ class LaneJets {
     }
   }
 
-  /// Solves the columns of orbits that are flagged, by column, by elimination.
+  /// Solves the columns of the flagged orbits by elimination; the flags are given by column.
   void eliminate_where(const std::array<Orbits, width>& flags, std::size_t count) {
     bool is_any = false;
     for (std::size_t t = 0; t < count; ++t) is_any = is_any || largest_magnitude(flags[t]) > 0;
@@ -183,9 +186,9 @@ class LaneJets {
     }
   }
 
-  /// Solves Y = column + W Dg Y for one column by fixed-point iteration, of each orbit until it has
-  /// converged by itself: the same as DegreeIteration. Returns flags of those orbits for which it
-  /// does not contract, whose column is as it was.
+  /// Solves Y = column + W Dg Y for one column by fixed-point iteration, as DegreeIteration does;
+  /// each orbit stops when it has converged. Returns flags of the orbits for which the iteration
+  /// does not contract; their column is unchanged.
   Orbits iterate(const LaneStages& stages, const Orbits& taken, std::size_t t) {
     const std::size_t m = components();
     const std::size_t s = stages.stages();
@@ -261,7 +264,7 @@ class LaneJets {
     }
   }
 
-  /// Adds W R to a column, R being the remainder of the monomial of two variables.
+  /// Adds W R to a column, where R is the remainder of the monomial of two variables.
   [[gnu::flatten]] void add_remainder(const LaneStages& stages,
                                       const std::array<std::size_t, 2>& factors, std::size_t t) {
     const std::size_t m = components();
@@ -290,7 +293,7 @@ class LaneJets {
     }
   }
 
-  /// Degree 0, with the rounding residues of the weights.
+  /// The step of degree 0, including the rounding residues of the weights.
   [[gnu::flatten]] void advance_states(const LaneStages& stages, const Orbits& taken) {
     const std::size_t m = components();
     const std::size_t s = stages.stages();
@@ -315,8 +318,8 @@ class LaneJets {
     }
   }
 
-  /// The step of one coefficient of component c, see SummedJet: the position comes first, for it
-  /// needs the momentum at the start.
+  /// The step of one coefficient of component c, see SummedJet. The position comes first, because
+  /// it needs the momentum at the start.
   void add_step(const LaneStages& stages, const Orbits& taken, std::size_t c, std::size_t k,
                 const Orbits& to_position, const Orbits& to_momentum) {
     const Orbits& h = stages.step();
@@ -344,7 +347,7 @@ class LaneJets {
   bool is_compensated_;
   bool is_iterated_;
   std::size_t components_;
-  std::size_t size_;  ///< coefficients of a component
+  std::size_t size_;  ///< number of coefficients of a component
   std::vector<Orbits> values_;
   std::vector<Orbits> lost_;
   LaneElimination<Components> elimination_;
@@ -352,12 +355,13 @@ class LaneJets {
   std::vector<Orbits> remainders_;  ///< by column, component and stage
   std::vector<Orbits> linear_;      ///< Y of degree 1, by variable, component and stage
   std::vector<Orbits> second_;      ///< see LaneField::evaluate_second
-  /// Of a column that is iterated for, at c s + i.
+  /// Work space for a column that is iterated, at c s + i.
   std::vector<Orbits> known_, places_, next_;
-  bool is_eliminated_ = false;  ///< for columns whose iteration does not contract
-  Orbits growth_{0.0};          ///< of the entries then
+  bool is_eliminated_ = false;  ///< columns are eliminated, because an iteration did not contract
+  Orbits growth_{0.0};          ///< growth of the entries in that elimination
   Orbits failed_{0.0};
-  std::vector<std::array<std::size_t, 2>> pairs_;  ///< variables of the monomials of degree 2
+  /// The two variables of each monomial of degree 2.
+  std::vector<std::array<std::size_t, 2>> pairs_;
 };
 
 }  // namespace hamjet

@@ -4,8 +4,8 @@
 
 namespace hamjet {
 
-/// Follows the changes of one orbit's iteration, relative to what changes, among others that may be
-/// done before it.
+/// Follows the changes of one orbit's iteration, relative to the size of the iterate; other orbits
+/// of the same iteration may finish earlier.
 struct LaneJudge {
   bool is_done = false;
   bool has_failed = false;

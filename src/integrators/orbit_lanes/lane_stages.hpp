@@ -13,9 +13,10 @@
 
 namespace hamjet {
 
-/// The stages of one step of each of several orbits, of degree 0, by the fixed-point iteration of
-/// StageIteration: each orbit stops when it has converged, whatever the others do, so that none of
-/// its digits depends on them. For systems of second order with unit mass, and of first order.
+/// The stages of degree 0 of one step of several orbits, by the fixed-point iteration of
+/// StageIteration. Each orbit stops when it has converged, whatever the others do, so that none of
+/// its digits depends on them. This is for second-order systems with unit mass, and for first-order
+/// systems.
 class LaneStages {
  public:
   LaneStages(const DynamicalSystem& system, const GaussTableau& tableau, int order)
@@ -34,14 +35,14 @@ class LaneStages {
   std::size_t stages() const { return coefficients_.stages; }
   const LaneCoefficients& coefficients() const { return coefficients_; }
   LaneField& field() { return field_; }
-  /// By component and stage, at c s + i: the stages' places and slopes.
+  /// The stages' places and slopes, by component and stage, at c s + i.
   const std::vector<Orbits>& places() const { return places_; }
   std::vector<Orbits>& slopes() { return slopes_; }
   const std::vector<Orbits>& slopes() const { return slopes_; }
   /// d g_c / d Y_k, at (c m + k) s + i.
   const std::vector<Orbits>& gradients() const { return gradients_; }
   const Orbits& step() const { return step_; }
-  /// h^2, or h for a system of first order.
+  /// h^2, or h for a first-order system.
   const Orbits& scale() const { return scale_; }
 
   void set_step(const Orbits& h) {
@@ -49,8 +50,8 @@ class LaneStages {
     scale_ = is_second_order_ ? h * h : h;
   }
 
-  /// Evaluates the collocation polynomials of the slopes at start + length c_i, the unit being
-  /// their own step, as StageSlopes::reposition.
+  /// Evaluates the collocation polynomials of the slopes at start + length c_i, in units of their
+  /// own step, as StageSlopes::reposition.
   [[gnu::flatten]] void reposition(const Orbits& start, const Orbits& length) {
     const std::size_t s = stages();
     std::array<Orbits, most_stages> basis;
@@ -78,9 +79,9 @@ class LaneStages {
     slopes_.swap(guess_);
   }
 
-  /// Solves degree 0 of the orbits that `wanted` flags, from the slopes that stand in slopes();
-  /// `state(k)` is component k of the state. Returns flags of those that converged; adds to
-  /// `evaluations` how many each took. Slopes and gradients are then those at the places.
+  /// Solves degree 0 of the orbits that `wanted` flags, from the slopes in slopes(); `state(k)` is
+  /// component k of the state. Returns flags of the orbits that converged; adds to `evaluations`
+  /// how many evaluations each took. Slopes and gradients then belong to the places.
   template <class State>
   [[gnu::flatten]] Orbits solve(const State& state, const Orbits& wanted, EachOrbit& evaluations) {
     const std::size_t s = stages();
@@ -115,7 +116,8 @@ class LaneStages {
         ends_any = ends_any || judges[k].is_done;
       }
       if (ends_any) {
-        // What the coefficients' rounding residues add is known to the last digit from now on.
+        // From now on the contribution of the coefficients' rounding residues is known to the last
+        // digit.
         end_with_lost(state, together(ends));
       }
       const Orbits moving = together(moves);
@@ -134,7 +136,7 @@ class LaneStages {
     return choose(finite, Orbits(0.0), together(solved));
   }
 
-  /// Sum over j of W_ij / scale times what stands at j, for all i of one component.
+  /// The sum over j of W_ij / scale times the value at j, for all i, for one component.
   [[gnu::flatten]] void couple(const Orbits* values, const std::vector<double>& matrix,
                                Orbits* result) const {
     const std::size_t s = stages();
@@ -159,7 +161,8 @@ class LaneStages {
  private:
   static constexpr std::size_t most_stages = 16;
 
-  /// The part of base + W g that rounding takes from the coefficients: see StageSystem::lost.
+  /// The part of base + W g that the rounding of the coefficients takes away: see
+  /// StageSystem::lost.
   template <class State>
   [[gnu::flatten]] void set_lost(const State& state) {
     const std::size_t s = stages();
@@ -182,8 +185,8 @@ class LaneStages {
     places_ = next_;
   }
 
-  /// Sets `next_` to base + (W g + lost); returns the largest changes from the places, in units of
-  /// each component's scale.
+  /// Sets `next_` to base + (W g + lost); returns the largest changes from the present places, in
+  /// units of each component's scale.
   [[gnu::flatten]] Orbits couple() {
     const std::size_t s = stages();
     std::array<Orbits, most_stages> moved;
@@ -207,8 +210,8 @@ class LaneStages {
     couple();
   }
 
-  /// Changes count relative to the largest of a component's stages, or of the terms that they are
-  /// sums of.
+  /// Changes count relative to the largest stage of a component, or to the largest term of the sum
+  /// that gives the stage.
   void set_scales() {
     const std::size_t s = stages();
     for (std::size_t c = 0; c < components_; ++c) {
@@ -233,7 +236,7 @@ class LaneStages {
   std::vector<Orbits> base_;
   std::vector<Orbits> next_;
   std::vector<Orbits> guess_;
-  std::vector<Orbits> scales_;  ///< by component, 1 over what changes count relative to
+  std::vector<Orbits> scales_;  ///< by component, the inverse of the scale of changes
 };
 
 }  // namespace hamjet

@@ -12,8 +12,8 @@
 
 namespace hamjet {
 
-/// The step control of orbits side by side, by the rule of GaussStepRule: what it looks at is
-/// formed for all of them together.
+/// The step control of orbits side by side, by the rule of GaussStepRule. The measures of all
+/// orbits are formed together.
 class LaneStepControl {
  public:
   LaneStepControl(const DynamicalSystem& system, const LaneStages& stages, int order)
@@ -24,7 +24,7 @@ class LaneStepControl {
         rule_(s_, stages.is_second_order(), order, std::numeric_limits<double>::epsilon()) {}
 
   const GaussStepRule& rule() const { return rule_; }
-  /// Of the step that was looked at, of one orbit.
+  /// The measures of the last step of one orbit.
   const StepMeasures& measures(std::size_t lane) const { return measures_[lane]; }
 
   /// GaussStepRule::longest_sampling_step.
@@ -46,7 +46,7 @@ class LaneStepControl {
     return result;
   }
 
-  /// Looks at the stages of a step, from slopes at its start.
+  /// Measures the stages of a step; `start_slopes` are the slopes at its start.
   template <class State>
   [[gnu::flatten]] void look(const State& state, const std::vector<Orbits>& start_slopes) {
     const std::size_t m = stages_.components();
@@ -81,7 +81,7 @@ class LaneStepControl {
     displacement_ = apart(displacement(state));
   }
 
-  /// The error of a step h of one orbit.
+  /// The error estimate of a step h of one orbit.
   double error_estimate(std::size_t lane, double h) const {
     const int gap = s_ < 6 ? 2 : 3;
     return rule_.error_estimate(measures_[lane], h, [&](int degree) {
@@ -90,7 +90,7 @@ class LaneStepControl {
     });
   }
 
-  /// GaussIntegrator::is_suspicious for controlled steps.
+  /// As GaussIntegrator::is_suspicious, for controlled steps.
   bool is_suspicious(std::size_t lane) const {
     const StepMeasures& step = measures_[lane];
     return step.defect > 0.5 * step.slope + 2 * step.largest_gradient * displacement_[lane];
@@ -131,7 +131,7 @@ class LaneStepControl {
   GaussStepRule rule_;
   std::array<StepMeasures, orbit_lanes> measures_;
   EachOrbit displacement_{};
-  /// The last two Legendre modes of the slopes and two before.
+  /// The last two Legendre modes of the slopes, and the two modes before these.
   std::array<EachOrbit, 4> modes_{};
 };
 

@@ -9,11 +9,11 @@
 
 namespace hamjet {
 
-/// Orbits that are integrated side by side, each in a lane of the machine's vectors.
+/// The number of orbits that are integrated side by side, each in a lane of the machine's vectors.
 inline constexpr std::size_t orbit_lanes = 8;
-/// One number of each.
+/// One number of each orbit, as a vector.
 using Orbits = Pack<double, static_cast<int>(orbit_lanes)>;
-/// One number of each by itself.
+/// One number of each orbit, as an array.
 using EachOrbit = std::array<double, orbit_lanes>;
 
 inline Orbits together(const EachOrbit& values) {
@@ -25,7 +25,7 @@ inline EachOrbit apart(const Orbits& values) {
   return result;
 }
 
-/// Lane by lane `chosen` where `flags` is not zero, `other` where it is. What one lane holds never
+/// Lane by lane, `chosen` if `flags` is not zero, otherwise `other`. The content of a lane never
 /// depends on another lane.
 inline Orbits choose(const Orbits& flags, const Orbits& chosen, const Orbits& other) {
   Orbits result = other;

@@ -11,12 +11,13 @@
 namespace hamjet {
 namespace {
 
-/// Below this |y0|^2, of at most 1, phi is left in: its series converge for deviations up to |y0|
-/// in scaled coordinates. On a polar orbit positions or momenta have at least 0.5.
+/// If |y0|^2, which is at most 1, is below this number, phi is not left out: its series converge
+/// for deviations up to |y0| in scaled coordinates. On a polar orbit positions or momenta have at
+/// least 0.5.
 constexpr double least_square = 0.25;
 
-/// The sizes of all positions and of all momenta, by which the coordinates of each are scaled: 1
-/// for a vanishing one.
+/// The sizes of all positions and of all momenta, by which the coordinates of each kind are scaled;
+/// 1 for a size that vanishes.
 template <class Real>
 std::array<Real, 2> sizes_of(const std::vector<Real>& state) {
   using std::sqrt;
@@ -100,9 +101,10 @@ RotationReduction<Real>::RotationReduction(const FlowProblem<Real>& problem,
   set_blocks(*problem.space);
 }
 
-/// Away from the axis in the section's plane, and all coordinates that are not in it. Each of these
-/// is a deviation by itself: a direction across several would mix what grows along the orbit with
-/// what does not, and leave the latter the rounding of the former.
+/// The basis of sigma: the direction away from the axis in the section's plane, and all coordinates
+/// outside this plane. Each of these coordinates is a deviation by itself: a direction across
+/// several would mix deviations that grow along the orbit with others that do not, and leave the
+/// latter with the rounding of the former.
 template <class Real>
 void RotationReduction<Real>::set_basis(const Numbers& y0) {
   using std::sqrt;
@@ -159,7 +161,7 @@ void RotationReduction<Real>::set_series(const Numbers& y0) {
   cosine_ = turn.cosine;
   sine_ = turn.sine;
   const std::vector<Series<Real>> turned = quarter_turn(y);
-  // R(-phi) y - y0 along the basis.
+  // The components of R(-phi) y - y0 along the basis.
   for (const Numbers& axis : basis_) {
     Series<Real> along(rotated_space_);
     Series<Real> turned_along(rotated_space_);
@@ -237,7 +239,7 @@ FlowJet<Real> RotationReduction<Real>::expand(const FlowJet<Real>& reduced) cons
       Real* const part = parts[i].coefficients().data();
       std::fill(part, part + count, Real(0));
       for (std::size_t m = 0; m < block.reduced.size(); ++m) {
-        // A power begins at its own degree.
+        // A power has no terms below its own degree.
         const Real factor = reduced[i][block.reduced[m]];
         const Real* const power = powers_[m].coefficients().data();
         for (std::size_t k = rotated_space_->first(sigma_space_->degree(m)); k < count; ++k) {
@@ -265,7 +267,7 @@ FlowJet<Real> RotationReduction<Real>::expand(const FlowJet<Real>& reduced) cons
         for (std::size_t k = 0; k < count; ++k) jet[i][block.whole[k]] = parts[i][k];
         continue;
       }
-      // R(phi): the first coordinate of a plane has the sine with the minus sign.
+      // R(phi): in the first coordinate of a plane the sine has a minus sign.
       const auto place = static_cast<std::size_t>(at - rotated_.begin());
       const bool is_first = place % 2 == 0;
       const std::size_t other = rotated_[is_first ? place + 1 : place - 1];

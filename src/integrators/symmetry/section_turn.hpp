@@ -7,7 +7,8 @@
 
 namespace hamjet {
 
-/// The angle phi from a nonzero vector y0 of a plane to a series y whose constant term is y0:
+/// Cosine and sine of the angle phi from a nonzero vector y0 of a plane to a series y whose
+/// constant term is y0:
 ///
 ///   A = y0.y / |y0|^2 ,   B = (y0_1 y_2 - y0_2 y_1) / |y0|^2 ,
 ///   cos phi = A / sqrt(A^2 + B^2) ,   sin phi = B / sqrt(A^2 + B^2) .

@@ -8,13 +8,12 @@
 
 namespace hamjet {
 
-/// A problem without the symmetries that it asks to leave out (FlowProblem::symmetry), as far as it
-/// has them, and put together with them again: the rotation first, then the shift in time of what
-/// is left.
+/// Leaves out of a problem the symmetries that it asks to leave out (FlowProblem::symmetry), as far
+/// as it has them, and puts them back: first the rotation, then the shift in time of the rest.
 template <class Real>
 class SymmetryReduction {
  public:
-  /// None where nothing is left out.
+  /// The reduction; no value if nothing is left out.
   static std::optional<SymmetryReduction> of(const FlowProblem<Real>& problem);
 
   FlowSymmetry left_out() const;
@@ -30,9 +29,9 @@ class SymmetryReduction {
   std::optional<TimeReduction<Real>> time_;
 };
 
-/// Integrates a problem with its symmetries left out where there are any: `run` integrates a
-/// problem with an observer and commutes with the rotation. What leaving out and putting back takes
-/// is added to the statistics' seconds.
+/// Integrates a problem; its symmetries are left out where there are any. `run` integrates a
+/// problem with an observer and must commute with the rotation. The time for leaving out and
+/// putting back is added to the statistics' seconds.
 template <class Real, class Run>
 FlowJet<Real> integrate_without_symmetry(const FlowProblem<Real>& problem,
                                          IntegrationStatistics& statistics,

@@ -15,11 +15,12 @@
 namespace hamjet {
 namespace {
 
-/// Below this part of the nominal's speed in the variable left out, in scaled coordinates, the
-/// shift is left in: the series of tau have the inverse of it to the power of their degree.
+/// The shift is not left out if the nominal's speed in the left-out variable is below this fraction
+/// of its whole speed, in scaled coordinates: the coefficients of degree d of tau contain the
+/// inverse of this fraction to the power d.
 constexpr double least_part_of_speed = 0.25;
 
-/// phi_tau of a jet that does not depend on the variable `time`, with tau in that variable's place.
+/// phi_tau of a jet that does not depend on the variable `time`, which then stands for tau.
 template <class Real>
 FlowJet<Real> flown(const DynamicalSystem& system, FlowJet<Real> z, std::size_t time) {
   const SeriesSpace& space = z[0].space();
@@ -45,7 +46,7 @@ FlowJet<Real> flown(const DynamicalSystem& system, FlowJet<Real> z, std::size_t 
   return z;
 }
 
-/// The linear parts of the starts: a column for each variable.
+/// The linear parts of the starts, with a column for each variable.
 template <class Real>
 std::vector<std::vector<Real>> columns_of(const FlowProblem<Real>& problem) {
   std::vector<std::vector<Real>> columns;
@@ -59,8 +60,8 @@ std::vector<std::vector<Real>> columns_of(const FlowProblem<Real>& problem) {
   return columns;
 }
 
-/// How fast the nominal moves in each variable at the start, R(-psi) included, as parts of its
-/// speed, momenta being divided by momentum_scale; all 0 at an equilibrium.
+/// The speed of the nominal in each variable at the start, including R(-psi), as fractions of its
+/// whole speed; momenta are divided by momentum_scale. All are 0 at an equilibrium.
 template <class Real>
 std::vector<double> parts_of_speed(const FlowProblem<Real>& problem,
                                    const std::optional<LeftOutRotation>& rotation) {
@@ -80,7 +81,7 @@ std::vector<double> parts_of_speed(const FlowProblem<Real>& problem,
   if (!(square > 0)) return parts;
   const auto number = [&](std::size_t i) { return static_cast<double>(z[i]); };
   if (rotation) {
-    // d psi/dt, and the motion of the rotation taken out.
+    // d psi/dt, by which the rotation's motion is removed.
     const auto [i, j] = rotation->section;
     const double rate = (number(i) * speed[j] - number(j) * speed[i]) /
                         (number(i) * number(i) + number(j) * number(j));
@@ -184,7 +185,7 @@ bool TimeReduction<Real>::set_inner_map(const FlowProblem<Real>& problem) {
   std::vector<Series<Real>> sigma;
   std::vector<bool> is_moved(start.size(), false);
   if (rotation_) {
-    // The rotation has brought them to the section, but for rounding.
+    // The rotation has brought these coordinates to the section, up to rounding.
     for (const std::size_t i : rotation_->section) is_moved[i] = true;
   }
   for (const std::vector<Real>& column : columns) {

@@ -21,11 +21,11 @@ namespace {
 /// are freed.
 constexpr std::size_t longest_override_key = 1000;
 
-/// The value that removes a key; TOML has none of this name.
+/// The value that removes a key; TOML has no such value.
 constexpr std::string_view removal = "null";
 
-/// Whether a text that was refused is TOML all the same: where memory runs out while it reads a
-/// number, the library takes the number for wrong.
+/// Whether a text that was refused is valid TOML all the same: if memory runs out while the library
+/// reads a number, it reports the number as invalid.
 bool is_toml(std::string_view text) {
   try {
     static_cast<void>(toml::parse(text));
@@ -73,12 +73,12 @@ std::string toml_string(std::string_view text) {
 }
 
 /// A table with the single key `value`, every part of which remembers that it came from the
-/// override: toml++ lets only its parser say where a value comes from.
+/// override. It is parsed, because toml++ lets only its parser set the origin of a value.
 toml::table parse_value(const std::string& value_as_toml, const std::string& source) {
   return parse_toml("value = " + value_as_toml, source);
 }
 
-/// Refuses a number that does not fit, which would otherwise be taken for a text.
+/// Refuses a number that does not fit, which would otherwise be taken as a string.
 void refuse_number_out_of_range(const Override& change) {
   std::string_view digits = change.value;
   if (digits.starts_with('+') || digits.starts_with('-')) digits.remove_prefix(1);
@@ -101,10 +101,10 @@ toml::table override_value(const Override& change) {
   const std::string source = override_source(change.key);
   try {
     toml::table table = parse_value(change.value, source);
-    // A value with a line break could bring further keys along.
+    // A value with a line break could add further keys.
     if (table.size() == 1) return table;
   } catch (const Error&) {
-    // Not TOML, hence a string.
+    // The value is not TOML, hence a string.
   }
   refuse_number_out_of_range(change);
   try {
@@ -114,8 +114,8 @@ toml::table override_value(const Override& change) {
   }
 }
 
-/// Puts the value into the table. Moving keeps what the value remembers of its origin; copying it
-/// would not.
+/// Puts the value into the table. Moving keeps the origin that the value remembers; copying would
+/// lose it.
 void insert(toml::table& table, std::string_view name, toml::node& value,
             const std::string& source) {
   const toml::source_region origin{{1, 1}, {1, 1}, std::make_shared<const std::string>(source)};
@@ -123,7 +123,7 @@ void insert(toml::table& table, std::string_view name, toml::node& value,
       [&](auto& typed) { table.insert_or_assign(toml::key(name, origin), std::move(typed)); });
 }
 
-/// The element that has this label or, if there is none, this index.
+/// The element that has this label or, if no element has, this index.
 std::optional<std::size_t> element_named(const toml::array& array, std::string_view name) {
   for (std::size_t i = 0; i < array.size(); ++i) {
     const toml::table* table = array[i].as_table();
@@ -136,13 +136,13 @@ std::optional<std::size_t> element_named(const toml::array& array, std::string_v
   return is_index && index < array.size() ? std::optional(index) : std::nullopt;
 }
 
-/// An override on its way down the tables to what it changes.
+/// An override on its way down the tables to the value that it changes.
 struct Assignment {
   const Override& change;
-  toml::node* value;      ///< null: what is there is removed
-  std::string path = "";  ///< so far, with indices in place of labels
+  toml::node* value;      ///< null: the existing value is removed
+  std::string path = "";  ///< path so far, with indices in place of labels
   bool is_removed_element = false;
-  /// The key that was to be removed and is not there.
+  /// A key that was to be removed and does not exist.
   std::optional<SceneSource::AbsentKey> absent = {};
 
   void descend(const std::string& name) { path += path.empty() ? name : '.' + name; }
@@ -175,7 +175,7 @@ void assign_in_table(toml::table& table, std::string_view path, Assignment& assi
   }
 }
 
-/// The elements in words: "gauss8, midpoint or an index below 2".
+/// The elements in words, as in "gauss8, midpoint or an index below 2".
 std::string elements_of(const toml::array& array) {
   std::vector<std::string> labels;
   for (const toml::node& element : array) {
@@ -189,7 +189,7 @@ std::string elements_of(const toml::array& array) {
 }
 
 void assign_in_array(toml::array& array, std::string_view path, Assignment& assignment) {
-  // Labels may hold dots, so the longest name that fits is the one meant.
+  // Labels may contain dots, so that the longest name that fits is taken.
   for (std::size_t end = path.size();; end = path.rfind('.', end - 1)) {
     if (end == std::string_view::npos || end == 0) break;
     const auto index = element_named(array, path.substr(0, end));
@@ -210,7 +210,7 @@ void assign_in_array(toml::array& array, std::string_view path, Assignment& assi
                           in_quotes(path.substr(0, path.find('.'))), elements_of(array)));
 }
 
-/// Goes on to the end of `path`, the part of the override's key that begins at `place`.
+/// Continues at `place` to the end of `path`, the rest of the override's key.
 void assign(toml::node& place, std::string_view path, Assignment& assignment) {
   if (toml::table* table = place.as_table()) {
     assign_in_table(*table, path, assignment);
@@ -226,12 +226,12 @@ void assign(toml::node& place, std::string_view path, Assignment& assignment) {
 /// An override that has been applied.
 struct Applied {
   const Override* change;
-  std::string path;  ///< with indices in place of labels
+  std::string path;  ///< path with indices in place of labels
   bool is_removed_element = false;
 };
 
-/// Refuses a second value of one key, or a value of a table or an array of which a key has been
-/// given, for the first would be lost without a word.
+/// Refuses a second value for one key, or a value for a table or an array after a value for one of
+/// its keys: the first value would be lost silently.
 void refuse_second_value(const std::vector<Applied>& earlier, const Applied& last) {
   const auto first = std::find_if(earlier.begin(), earlier.end(), [&](const Applied& other) {
     return other.path == last.path || other.path.starts_with(last.path + '.');
@@ -250,7 +250,7 @@ void refuse_second_value(const std::vector<Applied>& earlier, const Applied& las
                           printable(first->change->value), printable(last.change->value)));
 }
 
-/// What is removed may be given anew, and the elements behind a removed one move up.
+/// A removed key may be given again, and the elements after a removed element move up.
 void forget_removed(std::vector<Applied>& earlier, const Applied& removed) {
   std::erase_if(earlier, [&](const Applied& one) {
     return one.path == removed.path || one.path.starts_with(removed.path + '.');
@@ -274,7 +274,7 @@ Applied apply(const Override& change, SceneDocument& document) {
     throw_usage(change, fmt::format("the key is too long, got {} bytes, must be at most {}",
                                     change.key.size(), longest_override_key));
   }
-  // An empty value comes from an unset variable of a script, and must not mean something else.
+  // An empty value comes from an unset variable of a script, and must be an error.
   if (change.value.empty()) {
     throw_usage(change, "empty, must be a value (null removes the key, \"\" is the empty string)");
   }
@@ -290,7 +290,7 @@ Applied apply(const Override& change, SceneDocument& document) {
   return {&change, assignment.path, assignment.is_removed_element};
 }
 
-/// Writes out what the document means where an override names a key in it.
+/// Writes out what the document implies where an override names a key in it.
 void write_implied(std::string_view implied, const std::vector<Override>& overrides,
                    SceneDocument& document) {
   if (implied.empty() || overrides.empty()) return;

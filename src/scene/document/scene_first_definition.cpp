@@ -6,7 +6,7 @@
 namespace hamjet::io {
 namespace {
 
-/// A key that no scene has; put at the end of a text it shows which table is open there.
+/// A key that no scene has. At the end of a text it shows which table is open there.
 constexpr std::string_view probe = "\x01";
 constexpr std::string_view probe_line = "\n\"\\u0001\" = 0\n";
 
@@ -21,7 +21,7 @@ std::size_t start_of_line(std::string_view text, std::size_t line) {
   return offset;
 }
 
-/// The first characters of a line; its bytes may be more.
+/// The first characters of a line, which may take more bytes.
 std::string_view first_characters(std::string_view line, std::size_t count) {
   std::size_t bytes = 0;
   for (; bytes < line.size(); ++bytes) {
@@ -45,14 +45,15 @@ const toml::table* table_with_probe(const toml::node& node) {
   return nullptr;
 }
 
-/// What a header goes on from: the table itself, or the last one of an array of tables.
+/// The table to which the next header adds: the node itself, or the last table of an array of
+/// tables.
 const toml::table* table_of(const toml::node& node) {
   const toml::array* array = node.as_array();
   if (array != nullptr && !array->empty()) return array->back().as_table();
   return node.as_table();
 }
 
-/// The place where the table already has what `statement`, a single dotted key, leads to.
+/// The place where the table already has a value at the path of `statement`, a single dotted key.
 std::optional<toml::source_position> find_in(const toml::table* table,
                                              const toml::table& statement) {
   const toml::table* path = &statement;
@@ -85,7 +86,7 @@ std::optional<toml::source_position> first_definition(std::string_view text,
       const toml::table above = toml::parse(before);
       return find_in(&above, toml::parse(line));
     }
-    // The error is at the value, so that what stands before it is the key and the equals sign.
+    // The error is at the value, so that the key and the equals sign stand before it.
     const toml::table above = toml::parse(before + std::string(probe_line));
     const std::string key(first_characters(line, second.column - 1));
     return find_in(table_with_probe(above), toml::parse(key + "0"));

@@ -7,8 +7,9 @@
 
 namespace hamjet::io {
 
-/// Where a TOML text first defines what it may not define again at `second`, the place that
-/// toml++ gives for the error. Nothing if that cannot be told, as within an inline table.
+/// The place where a TOML text first defines what it defines again at `second`, which is the place
+/// that toml++ gives for the error. No value if the first place cannot be found, for example within
+/// an inline table.
 std::optional<toml::source_position> first_definition(std::string_view text,
                                                       const toml::source_position& second);
 

@@ -17,7 +17,8 @@ std::string read_scene_file(const std::filesystem::path& file);
 
 /// Checks the text before TOML is parsed, and returns it without a UTF-8 byte order mark. `source`
 /// is the name for messages, already printable. Throws Error(scene) with
-///  - what the text is, if it is an orbit message or two-line elements, and how a scene names it;
+///  - the kind of the text, if it is an orbit message or two-line elements, and how a scene names
+///    such a file;
 ///  - the size, if the text is larger than `largest_scene_bytes`;
 ///  - the byte offset of a UTF-16 byte order mark, of a byte that is not UTF-8, or of a NUL;
 ///  - line, column and key of a number that binary64 or a 64-bit integer cannot hold (the parser

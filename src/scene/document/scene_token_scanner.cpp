@@ -58,7 +58,7 @@ class TokenScanner {
         ++line_;
         column_ = 1;
       } else if ((static_cast<unsigned char>(text_[position_]) & 0xc0U) != 0x80U) {
-        ++column_;  // continuation bytes of UTF-8 take no column
+        ++column_;  // continuation bytes of UTF-8 do not count as columns
       }
     }
   }
@@ -74,18 +74,19 @@ class TokenScanner {
     return in_quotes(rest.substr(0, utf8_sequence_length(rest)));
   }
 
-  /// Outside strings and comments TOML knows ASCII alone. Where toml++ 3.3 asks whether a character
-  /// is blank, its behaviour is undefined for those that are not ASCII and lie in the same part of
-  /// Unicode as a blank (is_non_ascii_horizontal_whitespace, U+00A1 to U+0499 among them).
+  /// Outside strings and comments TOML allows only ASCII. Where toml++ 3.3 tests whether a
+  /// character is blank, its behaviour is undefined for characters that are not ASCII and lie in
+  /// the same part of Unicode as a blank (is_non_ascii_horizontal_whitespace, U+00A1 to U+0499
+  /// among them).
   [[noreturn]] void refuse_character() const {
     throw_scene_error(here(), fmt::format("not valid TOML: got the character {} outside quotes, "
                                           "must be within quotes or a comment",
                                           character()));
   }
 
-  /// A string begins only after these characters, and not within a value that is no string: what
-  /// else looks like one to this scanner is not one to the parser, which goes on as if outside
-  /// quotes.
+  /// A string begins only after these characters, and not within a value that is not a string.
+  /// Elsewhere a quote does not begin a string for the parser, and this scanner would disagree with
+  /// it, so that it is refused.
   void check_start_of_string() const {
     constexpr std::string_view right = "\n\r\t =[{,.";
     const bool is_at_start = position_ == 0 || right.find(text_[position_ - 1]) != right.npos;
@@ -95,8 +96,8 @@ class TokenScanner {
                       "a string, must be at the start of a key or a value");
   }
 
-  /// Skips a string with its quotes. One that is not closed is the parser's to report: skipping
-  /// ends with the line (or with the text, for the form of several lines).
+  /// Skips a string with its quotes. An unclosed string is left for the parser to report: skipping
+  /// ends with the line or, for the form of several lines, with the text.
   void skip_string(char quote) {
     const std::string three_quotes(3, quote);
     const bool several_lines = text_.substr(position_).starts_with(three_quotes);
@@ -119,9 +120,9 @@ class TokenScanner {
     }
   }
 
-  /// Skips a backslash with what it escapes. At the end of a line of a string of several lines it
-  /// joins the next one; for such strings toml++ asks of the characters behind it whether they are
-  /// blank, as it does outside strings.
+  /// Skips a backslash and the character that it escapes. In a string of several lines, a backslash
+  /// at the end of a line joins the next line. In such strings toml++ tests whether the characters
+  /// after the backslash are blank, with the same undefined behaviour as outside strings.
   void skip_escape(bool several_lines) {
     advance(1);
     constexpr std::string_view blanks = " \t\r\n";
@@ -196,8 +197,8 @@ class TokenScanner {
     }
   }
 
-  /// Every dot of a dotted key is a table within a table. (That of a decimal number counts too,
-  /// which does no harm.)
+  /// Every dot of a dotted key is a table within a table. (The dot of a decimal number is counted
+  /// too, which does no harm.)
   void deepen_by_dot() {
     ++level().dots;
     ++depth_;
@@ -222,7 +223,7 @@ class TokenScanner {
     if (!is_digit(token[0]) && token[0] != '-' && token[0] != '+') return;
     std::string digits(token);
     std::erase(digits, '_');
-    if (digits[0] == '+') digits.erase(0, 1);  // std::from_chars does not know it
+    if (digits[0] == '+') digits.erase(0, 1);  // std::from_chars does not accept a plus sign
     const char* const end = digits.data() + digits.size();
     if (std::all_of(digits.begin() + (digits[0] == '-' ? 1 : 0), digits.end(), is_digit)) {
       std::int64_t integer = 0;
@@ -234,8 +235,8 @@ class TokenScanner {
       }
       return;
     }
-    // Unlike other ways to read a number this one depends on no locale, and it reports a literal
-    // that rounds to 0 just as one that rounds to infinity.
+    // Unlike other ways of reading a number, this one does not depend on the locale, and it reports
+    // a literal that rounds to 0 just as one that rounds to infinity.
     double number = 0;
     const auto [rest, error] = std::from_chars(digits.data(), end, number);
     if (rest == end && error == std::errc::result_out_of_range) {
@@ -248,20 +249,19 @@ class TokenScanner {
     }
   }
 
-  /// What is known of the unfinished item within a bracket.
+  /// The state of the unfinished item within a bracket.
   struct Level {
     bool is_array = false;
-    bool in_value = false;         ///< what comes is a value, and no key
-    bool is_within_value = false;  ///< to the parser the bracket is a part of a value
+    bool in_value = false;         ///< a value comes next, not a key
+    bool is_within_value = false;  ///< for the parser the bracket is a part of a value
     std::size_t dots = 0;
   };
   Level& level() { return levels_.back(); }
 
-  /// Whether the parser still takes what comes for a part of a value that is no string.
+  /// Whether the parser still treats the next characters as part of a value that is not a string.
   bool is_within_value() const { return levels_.back().in_value && !run_is_fresh_; }
 
-  /// Enters a bracket. What is in an array is a value; a table, and the header of one, begins with
-  /// a key.
+  /// Enters a bracket. An array contains values; a table, and the header of one, begins with a key.
   void open(char bracket) {
     const bool is_array = bracket == '[' && level().in_value;
     levels_.push_back({is_array, is_array, level().is_within_value || is_within_value()});

@@ -58,7 +58,8 @@ std::string default_text(const Absence& absence) {
   return absence.meaning == Absence::Meaning::value ? in_code(absence.text) : absence.text;
 }
 
-/// A line of a table: keys that differ in their names alone, or in what they belong to.
+/// A line of a table on the page. It stands for keys that differ only in their names, or in their
+/// owners.
 struct Row {
   std::vector<std::string_view> names;
   std::string texts;
@@ -100,7 +101,8 @@ std::string table_text(const std::vector<SceneKey>& keys) {
   return text;
 }
 
-/// The sections of all tables below `path`, each once: what several keys have is said at the first.
+/// Adds the sections of all tables below `path`, each once: a table that several keys share is
+/// described at the first of them.
 void add_tables(const std::vector<SceneKey>& keys, const std::string& path,
                 std::set<const TableDescription*>& said, std::string& text) {
   for (const SceneKey& key : keys) {

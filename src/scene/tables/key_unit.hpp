@@ -4,7 +4,7 @@
 
 namespace hamjet::io {
 
-/// The unit that the end of a key's name stands for; empty: none.
+/// The unit for which the end of a key's name stands; empty for no unit.
 std::string_view unit_of(std::string_view name);
 
 /// The name without its unit: "position" of "position_m".

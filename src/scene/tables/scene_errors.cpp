@@ -16,7 +16,7 @@ std::string dotted(std::string_view table, std::string_view key) {
   return fmt::format("{}.{}", table, key);
 }
 
-/// Line and column that the message begins with behind the source's name.
+/// The line and column with which the message begins, after the source's name.
 Place place_of(std::string_view message, std::string_view source) {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   Place place(none, none);

@@ -193,7 +193,7 @@ std::string TableReader::text(std::string_view key) const {
 
 std::filesystem::path TableReader::path_beside_scene(std::string_view key) const {
   const std::string path = text(key);
-  // The system would take the path to end at a NUL.
+  // The system would end the path at a NUL.
   if (path.empty() || path.find('\0') != std::string::npos) {
     fail(key, fmt::format("no path, got {}, must be the path of a file", found(key)));
   }

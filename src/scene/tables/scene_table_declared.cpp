@@ -3,7 +3,7 @@
 
 #include "scene_table.hpp"
 
-// Reading by what is declared of a key.
+// Reading keys according to their declarations.
 
 namespace hamjet::io {
 
@@ -114,7 +114,7 @@ void TableReader::attempt_declared_keys(const std::vector<std::string_view>& own
     if (is_of_another(key)) continue;
     const bool is_required = key.absence.meaning == Absence::Meaning::refused;
     if (errors_->has_about(head(key.name)) || (!has(key.name) && !is_required)) continue;
-    // Only `hamjet stability` looks into this one.
+    // Only `hamjet stability` reads this table.
     if (key.form.table == &case_table()) continue;
     if (key.form.table != nullptr) {
       attempt([&] {
@@ -124,7 +124,7 @@ void TableReader::attempt_declared_keys(const std::vector<std::string_view>& own
         }
       });
     } else if (!has(key.name) || key.form.words.empty()) {
-      // What words say of a value may be less, or more, than its form does.
+      // A form that is described in words may allow less, or more, than its other members say.
       attempt([&] { read_declared(key); });
     }
   }

@@ -6,7 +6,7 @@
 #include "key_unit.hpp"
 #include "scene_table.hpp"
 
-// Which keys a table may have, and what is said of others.
+// Which keys a table may have, and the messages about other keys.
 
 namespace hamjet::io {
 namespace {
@@ -15,16 +15,16 @@ bool contains(const std::vector<std::string_view>& names, std::string_view name)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Whether an unknown name may stand for this key: it lacks an ending, has one more, or another
-/// unit. Then the key is not missing besides.
+/// Whether an unknown name may be a misspelling of this key: it lacks the unit, has one too many,
+/// or has another one. The key is then not reported as missing.
 bool may_stand_for(std::string_view name, std::string_view key) {
   const auto stem = [](std::string_view text) { return text.substr(0, text.rfind('_')); };
   return key.starts_with(name) || name.starts_with(key) || stem(name) == stem(key) ||
          nearest(name, {key}).has_value();
 }
 
-/// What an unknown key should have been: one of these, in another unit or nearly so spelt, or else
-/// one of another table.
+/// What an unknown key should have been: one of these keys, in another unit or nearly so spelt, or
+/// a key of another table.
 std::string remedy_for(std::string_view name, const std::vector<std::string_view>& keys) {
   for (const std::string_view key : keys) {
     const bool is_other_unit =
@@ -95,7 +95,7 @@ void TableReader::fail_unknown(const toml::key& unknown, const KnownKeys& known)
     throw_scene_error(head, fmt::format("{} has no key {}, must be one of: {}", known.owner, name,
                                         listed(known.keys)));
   }
-  // An override's key may end with the name already.
+  // An override's key may already end with the name.
   const std::string got = place.ends_with(name) ? "" : fmt::format("got {}, ", printable(name));
   const auto remedy = remedy_for_foreign_key(path_, name);
   throw_scene_error(head,

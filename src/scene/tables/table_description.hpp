@@ -11,27 +11,27 @@
 #include <utility>
 #include <vector>
 
-// The keys of the tables of a scene, each said once: TableReader takes allowed keys, ranges and
-// choices from here, and `hamjet list keys` prints them. What depends on other keys stays in the
-// reader's function, and the key's form or help says it in words.
+// The declarations of the keys of all tables of a scene. TableReader takes allowed keys, ranges and
+// choices from here, and `hamjet list keys` prints them. Conditions that involve other keys are in
+// the functions that read the tables; the key's form or help describes them in words.
 
 namespace hamjet::io {
 
 struct TableDescription;
 
-/// What a value may be. Numbers are finite; ranges include both ends.
+/// The form of a value. Numbers are finite; ranges include both ends.
 struct ValueForm {
   enum class Type { number, integer, boolean, text, table };
 
   Type type = Type::number;
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool is_positive = false;                    ///< above 0, in place of the range
-  bool is_array = false;                       ///< of such values
-  std::size_t count = 0;                       ///< of an array's elements; 0: at least one
-  std::vector<std::string_view> choices = {};  ///< the only texts, if there are any
-  const TableDescription* table = nullptr;     ///< of the type table
-  std::string words = {};                      ///< for people, where the members do not say it all
+  bool is_positive = false;  ///< above 0, instead of the range
+  bool is_array = false;     ///< an array of such values
+  std::size_t count = 0;     ///< number of an array's elements; 0 for at least one
+  std::vector<std::string_view> choices = {};  ///< if not empty, the only allowed texts
+  const TableDescription* table = nullptr;     ///< for the type table: its description
+  std::string words = {};  ///< a description for people, where the members do not suffice
 
   bool has_range() const { return least > -std::numeric_limits<double>::infinity(); }
 };
@@ -64,12 +64,12 @@ inline ValueForm words(std::string words, ValueForm rest = text()) {
 
 }  // namespace form
 
-/// What holds where a table does not have a key.
+/// What holds if a table does not have a key.
 struct Absence {
   enum class Meaning {
     refused,  ///< the key is required
-    value,    ///< as if the key were there with `text`, in TOML
-    other     ///< `text` says it
+    value,    ///< the same as the key with the value `text`, in TOML
+    other     ///< described by `text`
   };
   Meaning meaning = Meaning::refused;
   std::string text = {};
@@ -79,7 +79,7 @@ namespace absent {
 
 inline Absence refused() { return {}; }
 inline Absence other(std::string text) { return {Absence::Meaning::other, std::move(text)}; }
-/// The default, as its member's initializer has it.
+/// The default value, taken from the initializer of the member.
 template <class Value>
 Absence value(const Value& value) {
   if constexpr (std::is_convertible_v<Value, std::string_view>) {
@@ -93,13 +93,13 @@ Absence value(const Value& value) {
 
 }  // namespace absent
 
-/// A key of a table. Its unit is the end of its name.
+/// A key of a table. Its unit follows from the end of its name.
 struct SceneKey {
   std::string_view name;
   ValueForm form;
   Absence absence;
   std::string_view help;
-  /// What has this key, for example models or methods; empty: every such table.
+  /// What has this key, for example models or methods; if empty, every such table has it.
   std::vector<std::string_view> owners = {};
 
   bool belongs_to(std::string_view owner) const;
@@ -109,7 +109,7 @@ struct SceneKey {
 inline constexpr std::string_view orbits = "orbits";
 inline constexpr std::string_view other_models = "other models";
 
-/// Lists, one after the other.
+/// Concatenates lists.
 template <class Element>
 std::vector<Element> joined(std::initializer_list<std::vector<Element>> lists) {
   std::vector<Element> all;
@@ -120,18 +120,18 @@ std::vector<Element> joined(std::initializer_list<std::vector<Element>> lists) {
 /// A table, or each table of an array.
 struct TableDescription {
   std::vector<SceneKey> keys;  ///< in the order in which messages list them
-  std::string_view note = {};  ///< what is to be said of the whole table
+  std::string_view note = {};  ///< text about the whole table
 
-  /// The keys' names, each once.
+  /// The distinct names of the keys.
   std::vector<std::string_view> names() const;
-  /// Those that belong to an owner, or do not.
+  /// The names of the keys that belong to an owner, or to no owner.
   std::vector<std::string_view> names_of(std::string_view owner) const;
   std::vector<std::string_view> names_not_of(std::string_view owner) const;
   /// The key of this name; null if there is none.
   const SceneKey* find(std::string_view name) const;
 };
 
-// The tables of a scene, each beside the function that reads it.
+// The descriptions of the tables of a scene, each defined beside the function that reads the table.
 
 const TableDescription& assignment_table();
 const TableDescription& bounded_table();
@@ -161,7 +161,7 @@ const TableDescription& uncertainty_table();
 const TableDescription& units_table();
 const TableDescription& validity_table();
 
-/// The keys that every scene and every sweep begins with: `schema` and `title`.
+/// The keys with which every scene and every sweep begins: `schema` and `title`.
 const std::vector<SceneKey>& head_keys();
 
 /// A study's name and the tables and keys at the top of its scenes.
@@ -170,11 +170,10 @@ struct StudyTables {
   TableDescription top;
 };
 
-/// All keys of this name that scenes of the first study have, by their paths from the top:
-/// "jet.order".
+/// All keys of this name in scenes of the first study, by their paths from the top: "jet.order".
 std::vector<std::string> paths_of_key(std::string_view name);
 
-/// All studies; the first is that of a scene without the key `study`.
+/// All studies; the first one is that of a scene without the key `study`.
 const std::vector<StudyTables>& all_studies();
 
 }  // namespace hamjet::io

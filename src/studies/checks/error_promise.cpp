@@ -11,23 +11,23 @@
 namespace hamjet {
 namespace {
 
-constexpr double largest_rounding = 1e-3;  ///< relative rounding of a usable degree
-/// How many times the measured floor an estimate of rounding may be. Of 1033 degrees of 260 random
-/// jets that rounding limits (error_estimate_statistics floors) it was above ten times in 1.7 %,
-/// above twenty in 0.2 %; 1.4 times in the median.
+constexpr double largest_rounding = 1e-3;  ///< relative rounding of a degree that is still usable
+/// The factor by which an estimate of rounding may exceed the measured floor. Among 1033 degrees of
+/// 260 random jets that rounding limits (error_estimate_statistics floors), the ratio was above ten
+/// in 1.7 %, above twenty in 0.2 %, and 1.4 in the median.
 constexpr double rounding_scatter = 20;
 
-/// How often a run's tolerance may count: once a period of the linearised motion for Gauss, whose
-/// tolerance is that of the error after one; once a step for the others, whose tolerance is that of
-/// a step.
+/// The number of times that a run's tolerance counts: once per period of the linearised motion for
+/// Gauss, whose tolerance is the error after one period; once per step for the others, whose
+/// tolerance is that of a step.
 double tolerance_count(const RunResult& run) {
   return std::max(1.0, is_tolerance_of_jet(run) ? run.statistics.periods
                                                 : static_cast<double>(run.statistics.steps));
 }
 
-/// By degree, by how much half-ulp changes of the start alone change the coefficients, relative to
-/// the largest. Degree d changes by the coefficients of degree d + 1; the last degree is taken to
-/// grow as the one before.
+/// By degree, the change of the coefficients, relative to the largest, that half-ulp changes of the
+/// start alone cause. Degree d changes by the coefficients of degree d + 1; the last degree is
+/// assumed to grow as the one before.
 std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const FlowJet<Extended> jet = comparable_jet(scene, run);
@@ -66,7 +66,7 @@ PromisedErrors promised_errors(const Scene& scene, const RunResult& run) {
     double floor = std::sqrt(1 + steps) * promised.total[d];
     if (d < measured.size()) floor = std::max(floor, measured[d]);
     promised.rounding.push_back(floor);
-    // A degree with fewer than three digits is not delivered, even where rounding is the reason.
+    // A degree with fewer than three digits is not accepted, even if rounding is the reason.
     promised.total[d] =
         promised.of_tolerance +
         error_estimate_safety * std::min(rounding_scatter * floor, largest_rounding);

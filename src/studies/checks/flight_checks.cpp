@@ -18,7 +18,7 @@ namespace {
 
 constexpr double largest_flown_energy_change = 1e-9;
 
-/// What one flight comes to.
+/// The outcome of one flight.
 struct FlightOutcome {
   LowestPoint lowest;
   double energy_change = 0;  ///< relative
@@ -27,7 +27,7 @@ struct FlightOutcome {
 FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
   EnergyError energy(*system, flight.start);
-  // Where terms cancel, what is left is no scale.
+  // If terms cancel, their sum is no scale for the change.
   energy.value(extended(flight.start));
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);

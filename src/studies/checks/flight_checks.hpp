@@ -8,28 +8,29 @@
 
 namespace hamjet {
 
-/// A flight of which a study tells something: of the chief, a deputy, a frozen orbit.
+/// A flight that a study reports: that of the chief, a deputy, or a frozen orbit.
 struct CheckedFlight {
-  std::string name;           ///< "the chief"
-  std::vector<double> start;  ///< (q, p), canonical
-  double time = 0;            ///< canonical, negative backwards
+  std::string name;           ///< for example "the chief"
+  std::vector<double> start;  ///< (q, p), in canonical units
+  double time = 0;            ///< in canonical units; negative is backwards
 };
 
-/// The chief's over a time, and that of the scene's deputy, if it has one and `with_deputy`.
+/// The flight of the chief over a time and, if `with_deputy`, that of the scene's deputy, if it has
+/// one.
 std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy);
 
 /// The canonical distance from the centre below which a flight fails the scene's check `surface`;
-/// none where that is off, or the model has no radius.
+/// no value if the check is off, or the model has no radius.
 std::optional<double> surface_limit(const Scene& scene);
 
-/// The least distance of a flight from the centre, between its steps too; canonical. A flight
-/// that cannot be followed comes to the centre, and says why in `failure`.
+/// The least distance of a flight from the centre, also between its steps, in canonical units. If a
+/// flight cannot be followed, its distance is 0 and `failure` gives the reason.
 LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start, double time);
 
-/// The self-checks that belong to every study, `energy` and `surface`, of its flights with the full
-/// equations of motion; each tells of the flight that comes out worst. The table [checks] turns
-/// them off and sets their limits, as those of a run; that of the energy is else 1e-9. A flight
-/// that cannot be followed fails them.
+/// The self-checks that belong to every study, `energy` and `surface`, for its flights with the
+/// full equations of motion; each check reports the flight with the worst outcome. The table
+/// [checks] turns them off and sets their limits, as for a run; the default limit of the energy is
+/// 1e-9. A flight that cannot be followed fails both checks.
 std::vector<SelfCheck> flight_checks(const Scene& scene, const std::vector<CheckedFlight>& flights);
 
 }  // namespace hamjet

@@ -14,7 +14,7 @@ std::vector<KeptTolerance> kept_tolerance(const Scene& scene, const RunResult& r
   const PromisedErrors promised = promised_errors(scene, run);
   std::vector<KeptTolerance> result;
   for (std::size_t d = 0; d < std::min(errors->size(), promised.total.size()); ++d) {
-    // Where shorter steps took nothing away, what is left is rounding, however large.
+    // If shorter steps did not reduce the error, it is rounding, however large it is.
     const bool is_rounding =
         (*errors)[d] <= promised.total[d] || d < run.statistics.rounding_by_degree.size();
     result.push_back({promised.of_tolerance, (*errors)[d], promised.rounding[d], is_rounding});
@@ -37,8 +37,8 @@ std::string tolerance_warning(const Scene& scene, const RunResult& run) {
     if (!(by_degree[d].error <= by_degree[worst].error)) worst = d;
   }
   const KeptTolerance& one = by_degree[worst];
-  // An estimate may be as many times too high: only what is surely not kept is worth a warning; the
-  // table and summary.json have it in any case.
+  // An estimate may be too high by this factor. Only a tolerance that is surely not kept is worth a
+  // warning; the table and summary.json have the estimate in any case.
   constexpr double surely = 10;
   if (!run.error_by_degree && one.error <= surely * one.asked) return "";
   const std::string keeping = kept == 0   ? "degree 0 does not keep it"

@@ -7,26 +7,27 @@
 
 namespace hamjet {
 
-/// What a degree of a run's jet keeps of the tolerance that was asked for.
+/// How a degree of a run's jet compares with the requested tolerance.
 struct KeptTolerance {
-  double asked = 0;         ///< the error that the tolerance allows, PromisedErrors::of_tolerance
-  double error = 0;         ///< against a reference, or else estimated
-  double rounding = 0;      ///< what rounding alone makes of the degree
-  bool is_rounding = true;  ///< whether rounding explains the error; else the steps are too long
+  double asked = 0;     ///< the error that the tolerance allows, PromisedErrors::of_tolerance
+  double error = 0;     ///< measured against a reference, or else estimated
+  double rounding = 0;  ///< effect of rounding alone on the degree
+  bool is_rounding =
+      true;  ///< whether rounding explains the error; otherwise the steps are too long
 
   bool is_kept() const { return error <= asked; }
 };
 
-/// By degree; empty for fixed steps, which promise nothing, and where no error is known.
+/// By degree; empty for fixed steps, which promise no error, and if no error is known.
 std::vector<KeptTolerance> kept_tolerance(const Scene& scene, const RunResult& run);
 
-/// The number of degrees, from 0 on, that all keep it.
+/// The number of degrees, from 0 on, that all keep the tolerance.
 std::size_t degrees_kept(const std::vector<KeptTolerance>& by_degree);
 
-/// Which degrees keep the tolerance and what keeps the others from it, in words; empty where all
-/// do. An error that is estimated, not measured against a reference, must be more than 10 times
-/// what the tolerance allows: estimates may be so many times too high, and only what is surely not
-/// kept is worth a warning.
+/// A warning that names the degrees that keep the tolerance and the reason why the others do not;
+/// empty if all do. An error that is estimated, not measured against a reference, must exceed the
+/// tolerance's error more than 10 times, because estimates may be too high by this factor, and only
+/// a tolerance that is surely not kept is worth a warning.
 std::string tolerance_warning(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

@@ -18,7 +18,7 @@ class Scanner {
   void add(const std::optional<double>& x, const std::string& place) {
     if (x) add(*x, place);
   }
-  /// A number may be finite in extended precision whose stored copy is not.
+  /// A number may be finite in extended precision although its stored copy is not.
   void add(const Series<Extended>& series, const std::string& place) {
     for (const Extended& x : series.coefficients()) {
       add(precision_ == Precision::extended ? bool(isfinite(x))

@@ -6,15 +6,15 @@
 
 namespace hamjet {
 
-/// How many numbers a run's result has, and how many of them are not finite in the precision in
+/// The count of numbers in a run's result, and of those that are not finite in the precision in
 /// which they are stored.
 struct NumberScan {
   long numbers = 0;
   long not_finite = 0;
-  std::string first;  ///< where the first number that is not finite stands
+  std::string first;  ///< place of the first number that is not finite
 };
 
-/// Looks at all numbers that are printed or stored of a run.
+/// Counts all numbers of a run that are printed or stored.
 NumberScan scan_numbers(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

@@ -14,13 +14,13 @@
 namespace hamjet {
 namespace {
 
-/// Two digits better than what anybody would miss in the linear part: higher degrees lose some
-/// thousand times more (Kepler's circle just behind a revolution, F1 of degree 5).
+/// Two digits better than any user needs in the linear part: higher degrees lose some thousand
+/// times more (Kepler's circle just after a revolution, F1 of degree 5).
 constexpr double largest_quiet_error = 1e-8;
-/// Below this a large error is that of the integrator's steps, not of the kind.
+/// With a condition below this, a large error comes from the integrator's steps, not from the kind.
 constexpr double smallest_near_singular_condition = 1e4;
 
-/// The relative error of the map, the largest of its degrees but the nominal's.
+/// The relative error of the map: the largest over its degrees, without the nominal's.
 double map_error(const Scene& scene, const RunResult& run) {
   const auto& by_degree = run.error_by_degree ? run.error_by_degree : run.error_estimate.by_degree;
   double error = rounding_of(scene.precision);
@@ -31,7 +31,7 @@ double map_error(const Scene& scene, const RunResult& run) {
   return error;
 }
 
-/// The kind with the largest condition number; null if none exists.
+/// The kind with the largest condition number; null if no kind exists.
 const KindResult* worst_kind(const std::vector<KindResult>& kinds) {
   const KindResult* worst = nullptr;
   for (const KindResult& kind : kinds) {
@@ -43,7 +43,8 @@ const KindResult* worst_kind(const std::vector<KindResult>& kinds) {
 }  // namespace
 
 std::string near_singular_warning(const Scene& scene, const RunResult& run) {
-  // The condition tells the distance in time; the amplification grows with the duration as well.
+  // The condition shows the distance in time from a singularity; the amplification also grows with
+  // the duration.
   const KindResult* kind = worst_kind(run.kinds);
   if (!kind || kind->condition < smallest_near_singular_condition) return "";
   const double error = map_error(scene, run);
@@ -59,7 +60,7 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run) {
 std::string no_digits_warning(const RunResult& run) {
   const auto& errors = run.error_by_degree ? run.error_by_degree : run.error_estimate.by_degree;
   if (!errors) return "";
-  // What is not a number counts as larger than any.
+  // NaN counts as larger than any number.
   const auto worst = std::max_element(errors->begin(), errors->end(), [](double a, double b) {
     return a < b || (!std::isnan(a) && std::isnan(b));
   });

@@ -7,18 +7,18 @@
 
 namespace hamjet {
 
-/// What a generating function near one of its singular times makes of the error of the map, which
-/// is measured against a reference, else estimated, else rounding alone; empty where eight digits
-/// of its linear part are left. The map may be right to all its digits there, and no check of it
-/// fails.
+/// A warning about a generating function near one of its singular times, which magnifies the error
+/// of the map. This error is measured against a reference, or else estimated, or else rounding
+/// alone. The text is empty if eight digits of the linear part are left. The map itself may be
+/// right to all its digits, so that no check of it fails.
 std::string near_singular_warning(const Scene& scene, const RunResult& run);
 
-/// A degree of the jet of which not one digit is right, by its error against a reference or else
-/// its estimate; empty where there is none. Fixed steps promise no error, so that no check fails
-/// there.
+/// A warning about a degree of the jet without a single right digit, by its error against a
+/// reference or else its estimate; empty if there is none. Fixed steps promise no error, so that no
+/// check fails in this case.
 std::string no_digits_warning(const RunResult& run);
 
-/// All of these and tolerance_warning, for those who show them.
+/// All of these warnings and tolerance_warning.
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

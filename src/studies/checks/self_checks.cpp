@@ -22,10 +22,10 @@ namespace hamjet {
 namespace {
 
 constexpr double largest_fixed_step_error = 5;
-constexpr double gauss_excess = 10;  ///< error over tolerance that Gauss accepts in a step
+constexpr double gauss_excess = 10;  ///< ratio of error to tolerance that Gauss accepts in a step
 constexpr double largest_energy_change = 0.1;
 constexpr double largest_symplecticity_defect = 1e-6;
-constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon if larger
+constexpr double largest_inversion_miss = 1e-20;  ///< or epsilon, if larger
 constexpr double largest_amplified_rounding = 1e-4;
 
 void not_applicable(SelfCheck& check, std::string why) {
@@ -34,7 +34,7 @@ void not_applicable(SelfCheck& check, std::string why) {
   check.text = std::move(why);
 }
 
-/// Judges a value that may be at most the limit; what is not finite fails.
+/// Judges a value that may be at most the limit; a value that is not finite fails.
 bool judge(SelfCheck& check, double value, double limit) {
   if (!check.limit) check.limit = limit;
   const bool is_good = value <= *check.limit;
@@ -131,9 +131,9 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
 }
 
-/// The largest frequency of the linearised motion along the nominal over that at its end, at least
-/// 1. Coefficients of degree d grow and shrink along an orbit as the d-th power of the frequency,
-/// and so does rounding that is made where they are large.
+/// The ratio of the largest frequency of the linearised motion along the nominal to that at its
+/// end, at least 1. Coefficients of degree d grow and shrink along an orbit as the d-th power of
+/// the frequency, and so does rounding that arises where they are large.
 double frequency_growth(const Scene& scene, const RunResult& run) {
   const DynamicalSystem system = make_system(scene);
   FieldAtStates<double> field(system);
@@ -258,7 +258,7 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
   check.seconds += run.error_estimate.seconds;
   if (!run.error_estimate.by_degree) return not_applicable(check, run.error_estimate.failure);
   const std::vector<double>& estimate = *run.error_estimate.by_degree;
-  std::vector<double> limits;  // none for fixed steps, which promise nothing
+  std::vector<double> limits;  // empty for fixed steps, which promise no error
   if (check.limit) {
     limits.assign(estimate.size(), *check.limit);
   } else if (run.settings.tolerance) {

@@ -14,7 +14,7 @@
 namespace hamjet {
 namespace {
 
-/// Shorter integrations are repeated until a timing has lasted this long.
+/// Shorter integrations are repeated until a timing lasts this long.
 constexpr double shortest_timing_s = 2e-3;
 constexpr int most_repeats_in_timing = 20;
 

@@ -7,11 +7,11 @@
 
 namespace hamjet {
 
-/// Everything with which candidates are integrated and judged at one order of the jet.
+/// Integrates and judges candidates at one order of the jet.
 class ComparedOrder {
  public:
-  /// `reference` may be of a higher order: its first coefficients are those of this one.
-  /// `kind` is whose exactness is stated.
+  /// `reference` may have a higher order: its first coefficients are those of this order. `kind` is
+  /// the kind whose exactness is reported.
   ComparedOrder(Scene scene, int order, const ReferenceResult& reference,
                 const std::optional<GeneratingFunctionKind>& kind);
   ComparedOrder(const ComparedOrder&) = delete;
@@ -20,8 +20,8 @@ class ComparedOrder {
   const ComputedProblem& problem() const noexcept { return problem_; }
   const FormationPoints& points() const noexcept { return points_; }
 
-  /// Integrates once and judges the jet. A numerical failure is recorded in the run.
-  /// `keep_going` is told the seconds of integration so far; it may throw.
+  /// Integrates once and judges the jet. A numerical failure is recorded in the run. `keep_going`
+  /// is called with the seconds of integration so far; it may throw.
   ComparedRun judge(const Candidate& candidate, const std::string& series,
                     const std::function<void(double)>& keep_going);
 
@@ -29,7 +29,7 @@ class ComparedOrder {
   void time(const Candidate& candidate, ComparedRun& run,
             const std::function<void()>& keep_going) const;
 
-  /// One of the scene's integrators watched along time.
+  /// Observes one of the scene's integrators along time.
   RunAlongTime watch(const IntegratorSettings& settings, const TimesWithoutKind& singular,
                      const std::function<void(double)>& keep_going) const;
 

@@ -16,23 +16,23 @@
 namespace hamjet {
 namespace {
 
-/// A reference that knows itself less well than this cannot judge double precision.
+/// A reference with a larger uncertainty than this cannot judge double precision.
 constexpr double largest_uncertainty = 1e-13;
 
-/// A default series ends once this many refinements in a row have not lessened an error that is
-/// already this small.
+/// A default series ends once this many refinements in a row have not reduced an error that is
+/// already small.
 constexpr int fruitless_refinements = 2;
 constexpr double near_round_off = 1e-11;
 
-/// Part of the time budget that the fits of one series may take at one degree.
+/// Fraction of the time budget that the fits of one series may take at one degree.
 constexpr double fit_budget = 0.1;
 
-/// Thrown if an integration takes longer than the time budget leaves it.
+/// Thrown if an integration takes longer than the remaining time budget.
 struct TooSlow {
   double seconds;
 };
 
-/// Whether a run read from a file can stand for one of this order; one that cannot is run again.
+/// Whether a run that was read from a file is complete for this order; otherwise it is run again.
 bool is_sound(const ComparedRun& run) {
   if (!run.left_out.empty()) return false;
   if (!run.failure.empty()) return true;
@@ -43,8 +43,8 @@ bool is_sound(const ComparedRun& run) {
          std::all_of(run.seconds.begin(), run.seconds.end(), is_size);
 }
 
-/// The runs that an earlier comparison had finished, while a new one takes them up. Those that it
-/// did not come to are put back at the end, so that an interruption loses none.
+/// The finished runs of an earlier comparison, while a new one takes them over. Runs that the new
+/// comparison did not reach are put back at the end, so that an interruption loses none.
 class FinishedRuns {
  public:
   explicit FinishedRuns(std::vector<ComparedRun>& runs) : runs_(runs) {
@@ -64,7 +64,7 @@ class FinishedRuns {
     if (node.empty()) return std::nullopt;
     return std::move(node.mapped());
   }
-  /// Forgets the earlier runs that are left, when the comparison has come to all that it wants.
+  /// Discards the earlier runs that are left, once the comparison has reached all that it needs.
   void drop_the_rest() { finished_.clear(); }
 
  private:
@@ -76,7 +76,7 @@ class FinishedRuns {
   std::map<std::string, ComparedRun> finished_;
 };
 
-/// One comparison at work. The integrations are judged first, then timed in turns.
+/// One comparison. All integrations are judged first, and then timed in turns.
 class Comparison {
  public:
   Comparison(const Scene& scene, const ComparisonOptions& options, ComparisonResult& result)
@@ -149,7 +149,7 @@ class Comparison {
     if (problem.is_full_jet) choose_kind(problem);
   }
 
-  /// Chooses the kind whose exactness is stated. The linear part alone decides, so that the
+  /// Chooses the kind whose exactness is reported. The linear part alone decides, so that the
   /// reference's order does not matter.
   void choose_kind(const ComputedProblem& problem) {
     const std::vector<Series<Extended>>& jet = result_.reference.jet;
@@ -168,7 +168,7 @@ class Comparison {
     return *place;
   }
 
-  /// Seconds that the single runs of one series may take together.
+  /// Seconds that the runs of one series may take together.
   double allowance() const {
     const double integrations = scene_.comparison.repeats + 1;
     return scene_.comparison.time_budget_s / static_cast<double>(series_.size()) / integrations;
@@ -180,7 +180,7 @@ class Comparison {
     finished.drop_the_rest();
   }
 
-  /// Judges a series from coarse to fine, as long as the error falls and the time lasts.
+  /// Judges a series from coarse to fine, as long as the error falls and time is left.
   void judge_series(ComparedOrder& order, std::size_t index, FinishedRuns& finished) {
     const CandidateSeries& series = series_[index];
     double left = allowance();
@@ -270,7 +270,7 @@ class Comparison {
     }
   }
 
-  /// Judges, at all orders, the candidate of each method that reaches the wanted error with the
+  /// At all orders, judges the candidate of each method that reaches the wanted error with the
   /// least work.
   void judge_costs() {
     FinishedRuns finished(result_.cost_runs);
@@ -293,7 +293,7 @@ class Comparison {
   }
 
   /// Fits orders to the nominal and to the highest degree that is not zero; in extended precision
-  /// where double precision has no steps at which theory holds.
+  /// if double precision has no steps at which theory holds.
   void fit_orders() {
     result_.fits.clear();
     const std::set<int> degrees = {

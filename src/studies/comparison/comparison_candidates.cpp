@@ -16,8 +16,8 @@ double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 /// Shortest text that brings back the number.
 std::string text_of(double value) { return fmt::format("{}", value); }
 
-/// Steps from a few a revolution on, refined so that the error falls by 16 a time (by 4 for the
-/// midpoint rule). The comparison stops where the error no longer falls, or where the time runs
+/// Steps from a few per revolution on, refined so that the error falls by 16 each time (by 4 for
+/// the midpoint rule). The comparison stops where the error no longer falls, or where time runs
 /// out.
 std::vector<double> default_steps(const Scene& scene, double order) {
   constexpr int count = 32;
@@ -41,7 +41,7 @@ std::vector<double> coarsest_first(std::vector<double> values) {
   return values;
 }
 
-/// What the series of one comparison are made from.
+/// The inputs from which the series of one comparison are made.
 class SeriesBuilder {
  public:
   explicit SeriesBuilder(const Scene& scene) : scene_(scene), wanted_(scene.comparison) {}
@@ -69,8 +69,8 @@ class SeriesBuilder {
     }
   }
 
-  /// Whether lists are filled in by default: not if the scene gives steps or tolerances, even if
-  /// only one of the two.
+  /// Whether default lists are used: not if the scene gives steps or tolerances, even if it gives
+  /// only one of them.
   bool uses_defaults() const {
     return wanted_.steps_canonical.empty() && wanted_.tolerances.empty();
   }

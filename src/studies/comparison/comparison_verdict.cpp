@@ -13,7 +13,7 @@
 namespace hamjet {
 namespace {
 
-/// A length as a scene gives it: all its digits.
+/// A length in the form that a scene has: with all its digits.
 std::string given_length_text(double metres) {
   if (metres >= 1000 * (1 - 1e-12)) return fmt::format("{:g} km", metres / 1000);
   if (metres >= 1) return fmt::format("{:g} m", metres);
@@ -29,7 +29,7 @@ std::string configuration_text(const ComparedRun& run) {
   return fmt::format("{} (step {:g} canonical)", run.series, *run.settings.step_canonical);
 }
 
-/// Time from the start of the nominal, in words that suit it, with the number of revolutions of an
+/// The time from the start of the nominal, in suitable words, with the number of revolutions of an
 /// elliptic orbit.
 std::string span_text(const Scene& scene) {
   const double seconds = std::abs(scene.duration) * scene.units.time_s;
@@ -48,7 +48,7 @@ double separation_m(const Scene& scene) {
   return scene.separation.value_or(0) * scene.units.length_km * 1000;
 }
 
-/// What to say where all timed runs that reach the error are of one family of methods.
+/// The end of the verdict if all timed runs that reach the error are of one family of methods.
 std::string rest_text(const ComparisonResult& result, const std::vector<const ComparedRun*>& runs) {
   const ComparedRun& best = *runs[0];
   std::string text;
@@ -110,7 +110,8 @@ double ComparisonResult::smallest_claimed_error_m() const {
   const double metres = scene.units.length_km * 1000;
   const FlowJet<Extended>& jet = reference.jet;
   if (jet.empty()) return 0;
-  // A coefficient's uncertainty times the deviation's power, summed over the monomials.
+  // The uncertainty of each coefficient times the power of the deviation, summed over the
+  // monomials.
   const SeriesSpace& space = jet.front().space();
   double canonical = 0;
   for (int d = 0; d <= std::min(scene.order, space.order()); ++d) {
@@ -155,7 +156,7 @@ std::string verdict(const ComparisonResult& result) {
   }
   std::string text = fmt::format("{}: {} needs {}", task, configuration_text(*runs[0]),
                                  duration_text(runs[0]->median_seconds()));
-  // The next run of another method says more than the same method with other stages.
+  // A run of another method says more than a run of the same method with other stages.
   const auto other = std::find_if(runs.begin(), runs.end(), [&](const ComparedRun* run) {
     return run->settings.method != runs[0]->settings.method;
   });

@@ -8,9 +8,9 @@
 namespace hamjet {
 namespace {
 
-/// Errors less than this many times the smallest of all runs may be round-off.
+/// Errors less than this many times the smallest error of all runs may be round-off.
 constexpr double above_floor = 100;
-/// Errors above this are not yet governed by the leading term.
+/// The leading term does not yet dominate errors above this.
 constexpr double largest_error = 1e-2;
 constexpr std::size_t fewest_points = 3;
 constexpr std::size_t most_points = 4;
@@ -25,8 +25,8 @@ double smallest_error(const ComparisonResult& result, std::size_t degree) {
   return smallest;
 }
 
-/// Where a series' error rises again at its finest step, its own round-off is above that of the
-/// best run: the smallest error of the series. 0 where it still falls.
+/// If the error of a series rises again at its finest step, its round-off is above that of the best
+/// run; the result is then the smallest error of the series. It is 0 if the error still falls.
 double turning_error(const std::vector<ConvergencePoint>& finest_first) {
   if (finest_first.empty()) return 0;
   const auto smallest =
@@ -43,7 +43,8 @@ std::vector<ConvergencePoint> usable_points(const ComparisonResult& result,
   std::vector<ConvergencePoint> points;
   for (const ComparedRun& run : result.runs) {
     if (run.series != series || !run.is_finished() || !run.settings.step_canonical) continue;
-    // The step that was taken: the duration is cut into equal ones not longer than asked for.
+    // The step that was really taken: the duration is divided into equal steps not longer than
+    // requested.
     points.push_back({std::abs(result.scene.duration) / static_cast<double>(run.statistics.steps),
                       run.error_by_degree[index], run.settings.label});
   }
@@ -68,7 +69,7 @@ LogarithmicFit fit_logarithms(const std::vector<ConvergencePoint>& points, int c
     const ConvergencePoint& point = points[static_cast<std::size_t>(i)];
     terms(i, 0) = 1;
     terms(i, 1) = std::log10(point.step);
-    // Relative to the coarsest step, so that the columns are of one size.
+    // Steps are relative to the coarsest one, so that the columns have similar sizes.
     if (correction != 0) terms(i, 2) = std::pow(point.step / points.back().step, correction);
     errors(i) = std::log10(point.error);
   }

@@ -9,24 +9,25 @@
 namespace hamjet {
 
 /// Fits the order of convergence of a series with fixed steps at one degree, from the finest runs
-/// that lie well above the rounding floor. None with too few of them, or where the errors do not
+/// that lie well above the rounding floor. No value with too few of them, or if the errors do not
 /// yet follow a power of the step.
 std::optional<ConvergenceFit> fit_convergence(const ComparisonResult& result,
                                               const CandidateSeries& series, int degree);
 
 /// Fits the order of convergence from runs in extended precision, where many more digits lie
 /// between the steps at which the leading term dominates and the rounding floor: these steps
-/// continue those of the series' finest usable run. Where the whole duration shows no order within
-/// 0.3 of theory, or would take longer than `seconds`, shorter arcs from its start are tried, with
-/// references of their own: over them the leading term dominates at longer steps. `keep_going` is
-/// told the fraction done and may throw. None where a custom integrator has no extended precision,
-/// where no run of the series is usable, or where even the shortest arc takes too long.
+/// continue those of the series' finest usable run. If the whole duration shows no order within 0.3
+/// of theory, or would take longer than `seconds`, shorter arcs from its start are tried, with
+/// references of their own; over these the leading term dominates at longer steps. `keep_going` is
+/// called with the fraction that is done and may throw. No value if a custom integrator has no
+/// extended precision, if no run of the series is usable, or if even the shortest arc takes too
+/// long.
 std::optional<ConvergenceFit> fit_extended_convergence(
     const ComparisonResult& result, const CandidateSeries& series, int degree, double seconds,
     const std::function<void(double)>& keep_going);
 
-/// The finest runs of a series that can be fitted at one degree, the finest first: step (canonical)
-/// and relative error, with labels.
+/// The finest runs of a series that can be used in a fit at one degree, the finest first: step
+/// (canonical) and relative error, with labels.
 struct ConvergencePoint {
   double step;
   double error;
@@ -41,14 +42,14 @@ struct LogarithmicFit {
   double scatter = 0;  ///< largest distance of a point, in decades
 };
 
-/// Fits the slope, and a term in step^correction beside it unless `correction` is 0.
+/// Fits the slope and, unless `correction` is 0, a term in step^correction beside it.
 LogarithmicFit fit_logarithms(const std::vector<ConvergencePoint>& points, int correction);
 
-/// The slope that fit_logarithms gives; none if a point is further than a tenth of a decade from
-/// it.
+/// The slope that fit_logarithms gives; no value if a point is further than a tenth of a decade
+/// from the fitted line.
 std::optional<double> fitted_slope(const std::vector<ConvergencePoint>& points, int correction);
 
-/// The fit of a series at one degree, with this slope through these points.
+/// The fit of a series at one degree, with this slope and these points.
 ConvergenceFit convergence_fit_of(const CandidateSeries& series, int degree, double slope,
                                   const std::vector<ConvergencePoint>& points);
 

@@ -16,27 +16,28 @@ namespace hamjet {
 namespace {
 
 constexpr std::size_t runs = 4;
-/// How far the finest run stays above what the reference can vouch for.
+/// The error of the finest run must exceed the reference's uncertainty by this factor.
 constexpr double above_claimed = 30;
-/// Runs over the whole duration need no smaller error than this rounding floor, and at most
-/// `most_refinement` times the steps of the runs in double precision.
+/// Runs over the whole duration need no smaller error than this floor, and at most
+/// `most_refinement` times as many steps as the runs in double precision.
 constexpr double smallest_floor = 1e-20;
 constexpr double most_refinement = 64;
-/// The coarsest error is this many times the finest, unless that takes more than halved steps.
+/// The coarsest error is this many times the finest one, unless this would take more than half the
+/// steps.
 constexpr double error_range = 1e5;
-/// The parts of the duration that are tried, and the tolerance of the references of the shorter
-/// ones.
+/// The fractions of the duration that are tried, and the tolerance of the references for the
+/// shorter ones.
 constexpr std::array arcs = {1.0, 1.0 / 8, 1.0 / 64};
 constexpr double arc_tolerance = 1e-31;
-/// Steps after which the time of all is judged.
+/// Number of steps after which the time of all runs is predicted.
 constexpr long least_steps = 10;
 
 using Clock = std::chrono::steady_clock;
 
-/// Thrown if the runs would take longer than is allowed.
+/// Thrown if the runs would take longer than allowed.
 struct AllTooSlow {};
 
-/// The numbers of steps, the most first, that continue a usable run down to the error `floor`.
+/// The numbers of steps, the largest first, that continue a usable run down to the error `floor`.
 std::vector<long> step_counts(const ConvergencePoint& start, double duration, double order,
                               double floor) {
   const double refinement = std::pow(start.error / floor, 1 / order);
@@ -49,7 +50,7 @@ std::vector<long> step_counts(const ConvergencePoint& start, double duration, do
   return counts;
 }
 
-/// One fit, over one part of the duration.
+/// One fit over one fraction of the duration.
 std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
                                            const CandidateSeries& series, int degree, double arc,
                                            double seconds,
@@ -73,7 +74,7 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   const double floor = std::max(above_claimed * claimed, is_whole ? smallest_floor : 0);
   const double span = std::abs(scene.duration);
   const auto counts = step_counts(finest, span, series.order, floor);
-  // With so few steps, rounding their number makes runs alike, which tell nothing.
+  // With so few steps, runs become equal when their number of steps is rounded, and prove nothing.
   if (counts.back() < static_cast<long>(2 * runs)) return std::nullopt;
   const long total = std::accumulate(counts.begin(), counts.end(), 0L);
 
@@ -81,14 +82,14 @@ std::optional<ConvergenceFit> fit_over_arc(const ComparisonResult& result,
   std::vector<ConvergencePoint> points;
   long done = 0;
   const auto start = Clock::now();
-  // The coarsest run comes first: it tells what the others take.
+  // The coarsest run comes first, because it shows how long the others take.
   for (std::size_t k = runs; k-- > 0;) {
     settings.step_canonical = span / (static_cast<double>(counts[k]) - 0.5);
     IntegrationStatistics statistics;
     const auto jet = integrate<Extended>(
         flow, settings, statistics, [&](const Extended&, const FlowJet<Extended>&) {
           keep_going(static_cast<double>(++done) / static_cast<double>(total));
-          // What is done so far tells what the rest takes.
+          // The time so far predicts the time of the rest.
           const std::chrono::duration<double> spent = Clock::now() - start;
           if (spent.count() * static_cast<double>(total) > seconds * static_cast<double>(done) &&
               done >= least_steps) {

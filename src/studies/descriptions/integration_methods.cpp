@@ -18,13 +18,13 @@ namespace {
 using Settings = IntegratorSettings;
 using Forms = std::vector<ComparedForm>;
 
-/// The integration in both arithmetics by one generic function.
+/// Wraps one generic function as the integration in both arithmetics.
 template <class Function>
 MethodIntegration in_both(Function function) {
   return {function, function};
 }
 
-/// Lanes of the pack that holds this many stages: the next power of two.
+/// Number of lanes of the pack that holds this many stages: the next power of two.
 int lanes_for(int stages) {
   int lanes = 1;
   while (lanes < stages) lanes *= 2;

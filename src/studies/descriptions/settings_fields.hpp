@@ -7,9 +7,8 @@
 #include "hamjet/detail/studies/fields.hpp"
 #include "hamjet/studies/scene.hpp"
 
-// The members of the settings by name, declared once each. What compares, stores or reads settings
-// goes through for_each_field, so that a member that is added takes part everywhere or does not
-// compile.
+// The members of the settings by name, each declared once. All code that compares, stores or reads
+// settings uses for_each_field, so that a new member takes part everywhere or does not compile.
 
 namespace hamjet {
 HAMJET_FIELDS(CanonicalUnits, length_km, time_s)

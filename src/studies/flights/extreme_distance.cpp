@@ -30,7 +30,7 @@ ArcCurve three(const std::vector<Number>& components, std::size_t first) {
   return {components[first], components[first + 1], components[first + 2]};
 }
 
-/// The square of a curve's length, all powers of it, so that nothing is left out.
+/// The square of a curve's length, with all of its powers, so that nothing is left out.
 std::vector<double> squared_length(const ArcCurve& curve) {
   const std::size_t size = curve[0].size();
   std::vector<double> square(2 * size - 1, 0.0);
@@ -55,7 +55,7 @@ std::vector<double> recentred(std::vector<double> f, double middle, double half)
   return f;
 }
 
-/// Where g0 + g1 v + g2 v^2 is least for v from -1 to 1, and its value there.
+/// The v from -1 to 1 at which g0 + g1 v + g2 v^2 is least, and the least value.
 std::pair<double, double> least_of_parabola(const std::vector<double>& g) {
   const auto value = [&](double v) { return g[0] + v * (g[1] + v * g[2]); };
   double best = value(-1) < value(1) ? -1 : 1;
@@ -114,7 +114,7 @@ bool ExtremeDistance::add(const FlightArc& arc, const ArcCurve& curve) {
     scale += std::abs(c);
     c *= sign_;
   }
-  // Nothing bounds what is no number, and its parts would be halved to the end.
+  // With NaN there is no bound, and the parts would be halved for ever.
   if (!std::isfinite(scale)) {
     throw Error(ErrorKind::numerical, "distance: a flight's polynomial in time is not finite");
   }

@@ -8,31 +8,32 @@
 
 namespace hamjet {
 
-/// A place as series in the share of an arc's span.
+/// A position as series in the fraction of an arc's span that has passed.
 using ArcCurve = std::array<Series<double>, 3>;
 
-/// The position of a spacecraft from the centre, and that of one from another, along inertial axes.
+/// The position of a spacecraft relative to the centre, and that of one spacecraft relative to
+/// another, along inertial axes.
 ArcCurve place_along(const FlightArc& arc, std::size_t craft);
 ArcCurve separation_along(const FlightArc& arc, std::size_t from, std::size_t to);
-/// That along R, T, N of the one from which it is told. Throws Error(numerical) where it has no
-/// orbital plane.
+/// The relative position along R, T, N of the second spacecraft. Throws Error(numerical) if that
+/// one has no orbital plane.
 ArcCurve rtn_separation_along(const FlightArc& arc, std::size_t from, std::size_t to);
 
-/// Where the length of a vector is least, or greatest, along the arcs of a flight. On every part of
-/// an arc the square of the length is a parabola and a rest of which the sum of the magnitudes is a
-/// bound; parts are halved until what is found is better than anything that bound lets others hide,
-/// to 1e-12 of the square and rounding, 1e-14 of the arc's greatest.
+/// The least, or greatest, length of a vector along the arcs of a flight. On every part of an arc
+/// the square of the length is a parabola plus a rest, for which the sum of the magnitudes is a
+/// bound. Parts are halved until the value found is better than anything that the bound still
+/// allows, to 1e-12 of the square plus rounding, 1e-14 of the arc's greatest square.
 class ExtremeDistance {
  public:
   enum class Kind { least, greatest };
   explicit ExtremeDistance(Kind kind) : sign_(kind == Kind::least ? 1 : -1) {}
 
-  /// Looks at one arc; whether the extreme of all so far lies on it.
+  /// Examines one arc; returns whether the extreme of all arcs so far lies on it.
   bool add(const FlightArc& arc, const ArcCurve& curve);
 
   double distance() const { return distance_; }
-  double time() const { return time_; }    ///< canonical
-  double share() const { return share_; }  ///< of the arc on which it lies
+  double time() const { return time_; }    ///< in canonical units
+  double share() const { return share_; }  ///< fraction of the span of the arc on which it lies
 
  private:
   double length_at(const ArcCurve& curve, double share) const;

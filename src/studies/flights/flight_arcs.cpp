@@ -28,9 +28,10 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
                                           std::vector<std::vector<double>> states, double start,
                                           double time,
                                           const std::function<void(const FlightArc&)>& on_arc) {
-  // Functions of the polynomials are polynomials too, whose last powers fall a little later.
+  // Functions of the polynomials are polynomials too, whose last powers fall a little later, so
+  // that only this fraction of the reach is used.
   constexpr double used_reach = 0.8;
-  // A step that is this much shorter than the whole time runs into a collision.
+  // A step shorter than this fraction of the whole time runs into a collision.
   constexpr double least_part = 1e-9;
   constexpr std::size_t lanes = TaylorFlow::lanes;
   const SpacePointer space = SeriesSpace::create(1, TaylorFlow::order);
@@ -41,7 +42,7 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
     arc.start = start + flown;
     arc.span = time - flown;
     for (std::size_t f = 0; f < flows.size(); ++f) {
-      // Lanes without a state of their own repeat another, so that they are finite.
+      // Lanes without a state of their own repeat another one, so that they are finite.
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         flows[f].set_state(lane, states[std::min(f * lanes + lane, states.size() - 1)]);
       }
@@ -71,7 +72,7 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
       states[craft] = arc.state(craft, 1);
     }
     on_arc(arc);
-    // The last step ends at the time itself.
+    // The last step ends exactly at the time.
     flown = arc.span == time - flown ? time : flown + arc.span;
   } while (flown != time);
   return states;

@@ -9,16 +9,17 @@
 
 namespace hamjet {
 
-/// A step of the flights of some spacecraft side by side. Its polynomials leave out no more than
-/// rounding anywhere in it, so that nothing can hide between two looks.
+/// A step of the flights of some spacecraft side by side. Throughout the step its polynomials leave
+/// out no more than rounding, so that nothing is missed between two evaluations.
 struct FlightArc {
-  double start = 0;  ///< canonical time
-  double span = 0;   ///< of time, negative backwards
-  /// Of each spacecraft the components (q, p) as series in the share of the span that has passed.
+  double start = 0;  ///< in canonical time
+  double span = 0;   ///< duration, negative backwards
+  /// For each spacecraft, the components (q, p) as series in the fraction of the span that has
+  /// passed.
   std::vector<std::vector<Series<double>>> spacecraft;
 
   double time_at(double share) const { return start + share * span; }
-  /// The state of one of them at a share from 0 to 1 of the span.
+  /// The state of one spacecraft at a fraction from 0 to 1 of the span.
   std::vector<double> state(std::size_t craft, double share) const;
 };
 
@@ -26,8 +27,9 @@ struct FlightArc {
 double value_at(const Series<double>& series, double share);
 
 /// Flies the states (q, p) over a time, which may be negative, by Taylor's method in steps that all
-/// of them can take, and tells each; the flight's clock shows `start` at first. A time of 0 is one
-/// arc. Returns the states at the end. Throws Error(numerical) where one runs into a collision.
+/// of them can take, and hands each arc to the caller. The flight's clock starts at `start`. A time
+/// of 0 gives one arc. Returns the states at the end. Throws Error(numerical) if one runs into a
+/// collision.
 std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
                                           std::vector<std::vector<double>> states, double start,
                                           double time,

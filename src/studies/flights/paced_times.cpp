@@ -39,7 +39,7 @@ std::vector<double> paced_times(const Scene& scene, double time, int count) {
   const double last = static_cast<double>(eccentric_anomaly_of_mean_deg(mean, e)) / degrees;
   for (int k = 1; k < count; ++k) {
     const double step = (last - first) * k / count;
-    // E - e sin E less its start, without the difference of near numbers.
+    // E - e sin E minus its value at the start, without subtracting nearly equal numbers.
     const double sines = 2 * std::cos(first + step / 2) * std::sin(step / 2);
     times.push_back((step - e * sines) / motion);
   }

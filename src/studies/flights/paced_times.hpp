@@ -6,7 +6,7 @@
 
 namespace hamjet {
 
-/// How many intervals a time is divided into.
+/// Limits for the number of intervals into which a time is divided.
 struct IntervalCount {
   int each_revolution;
   int fewest;
@@ -14,13 +14,13 @@ struct IntervalCount {
 };
 int interval_count(const Scene& scene, double time, const IntervalCount& wanted);
 
-/// Of a path that is drawn: with fewer it has corners, and more, of over 256 revolutions, make a
-/// file slow to show.
+/// Intervals of a path that is drawn: with fewer it would have corners; more, over 256 revolutions,
+/// would make a file slow to show.
 inline constexpr IntervalCount drawn_path = {64, 400, 16384};
 
-/// The canonical times from 0 to a time in so many steps that are equal in the eccentric anomaly of
-/// the scene's chief, on its ellipse at the start, so that perigee has as many of them as apogee;
-/// equal in time where it has no ellipse.
+/// The canonical times from 0 to a time in this number of steps. The steps are equal in the
+/// eccentric anomaly of the scene's chief, on its ellipse at the start, so that perigee has as many
+/// of them as apogee; they are equal in time if the chief has no ellipse.
 std::vector<double> paced_times(const Scene& scene, double time, int count);
 
 }  // namespace hamjet

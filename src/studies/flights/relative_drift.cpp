@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 Vector3d place_of(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
 Vector3d velocity_of(const std::vector<double>& z) { return {z[3], z[4], z[5]}; }
 
-/// 1/a of the osculating orbit, positive on an ellipse.
+/// 1/a of the osculating orbit; positive for an ellipse.
 double inverse_axis(const std::vector<double>& z) {
   return 2 / place_of(z).norm() - velocity_of(z).squaredNorm() / canonical_mu;
 }
 
-/// A half-plane through the centre, which orbits cross once a revolution.
+/// A half-plane through the centre that orbits cross once per revolution.
 class Meridian {
  public:
   Meridian(const SharedSystem& system, const std::vector<double>& chief) : system_(system) {
@@ -33,7 +33,7 @@ class Meridian {
     along_ = normal_.cross(radial_);
   }
 
-  /// The time from the passage that is nearest to now to the next one; none where it is not found.
+  /// The time from the passage nearest to the present to the next one; no value if it is not found.
   std::optional<double> revolution(std::vector<double> state) const {
     const double inverse = inverse_axis(state);
     if (!(inverse > 0)) return std::nullopt;
@@ -46,10 +46,10 @@ class Meridian {
   }
 
  private:
-  /// Newton's method on the angle; the time that it took.
+  /// Newton's method on the angle; returns the time that passed.
   std::optional<double> fly_to_passage(std::vector<double>& state, double period) const {
     constexpr int most_iterations = 40;
-    constexpr double close = 1e-14;  // of the period
+    constexpr double close = 1e-14;  // as a fraction of the period
     double taken = 0;
     for (int i = 0; i < most_iterations; ++i) {
       const Vector3d q = place_of(state), v = velocity_of(state);
@@ -61,7 +61,7 @@ class Meridian {
       step = std::clamp(step, -period / 8, period / 8);
       state = exact_flow(system_, state, step);
       taken += step;
-      // Rounding of the flights leaves no better.
+      // The rounding of the flights allows no better result.
       if (i > 8 && std::abs(step) <= 100 * close * period) return taken;
     }
     return std::nullopt;
@@ -73,7 +73,8 @@ class Meridian {
   Vector3d normal_;
 };
 
-/// The change of the deputy's velocity along its motion that gives it the chief's revolution.
+/// The change of the deputy's velocity along its motion that gives its revolution the duration of
+/// the chief's.
 std::optional<Vector3d> holding_change(const Meridian& meridian, const std::vector<double>& deputy,
                                        double chief_revolution) {
   constexpr int most_iterations = 12;
@@ -103,7 +104,7 @@ std::optional<Vector3d> holding_change(const Meridian& meridian, const std::vect
 std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vector<double>& chief,
                                             const std::vector<double>& deviation,
                                             RelativeFrame frame, bool finds_holding) {
-  // A revolution's flight rounds to some parts of these, of its length.
+  // The rounding of a flight over a revolution, relative to these numbers.
   constexpr double rounding = 1e-11;
   const MetricUnits units = metric_units(scene);
   const SharedSystem system = make_system(scene);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double no_cost = std::numeric_limits<double>::infinity();
 
-/// One study at work.
+/// One study in progress.
 class AssignmentStudy {
  public:
   AssignmentStudy(const Scene& scene, const ProgressCallback& progress)
@@ -28,7 +28,7 @@ class AssignmentStudy {
         progress_(progress),
         points_(scene, progress, seconds_) {
     result_.scene = scene;
-    // All pairs if they are few, else this many of them, evenly taken.
+    // All pairs if there are few, otherwise this many of them, evenly chosen.
     constexpr std::size_t most_pairs = 64;
     const std::size_t slots = settings_.slots.size();
     const std::size_t pairs = settings_.deputies.size() * slots;
@@ -49,7 +49,8 @@ class AssignmentStudy {
     result_.checks = flight_checks(scene_, flights_of(scene_, times.back(), false));
     choose();
     if (!result_.failure.empty()) return std::move(result_);
-    // The chosen times once more, for the proofs; kinds are chosen as the first time.
+    // The chosen times are visited once more for the proofs; kinds are then chosen as the first
+    // time.
     points_.forget_last_kind();
     visit_jets(points_.jet_problem(), integrator, times,
                [&](std::size_t index, const FlowJet<double>& jet) { prove(index, jet); });
@@ -68,7 +69,7 @@ class AssignmentStudy {
   }
 
  private:
-  /// Velocity changes of all pairs at one time; infinite where there is no answer.
+  /// Velocity changes of all pairs at one time; infinite if there is no answer.
   void find_costs(std::size_t index, const FlowJet<double>& jet) {
     const std::vector<double>& times = scene_.transfer->times;
     if (progress_) {
@@ -146,7 +147,7 @@ class AssignmentStudy {
     return best;
   }
 
-  /// The cheapest of the times first..last - 1 for each pair.
+  /// The cheapest among the times first..last - 1 for each pair.
   std::vector<std::vector<AssignmentCost>> best_costs(std::size_t first, std::size_t last) const {
     std::vector<std::vector<AssignmentCost>> best(
         settings_.deputies.size(), std::vector<AssignmentCost>(settings_.slots.size()));
@@ -197,7 +198,7 @@ class AssignmentStudy {
   const ProgressCallback& progress_;
   TransferSeconds seconds_;
   TransferPoints points_;
-  std::vector<RelativeTransfer> typical_;                ///< transfers that the kind is chosen for
+  std::vector<RelativeTransfer> typical_;                ///< transfers for which the kind is chosen
   std::vector<std::vector<std::vector<double>>> costs_;  ///< [time][deputy][slot], m/s
   AssignmentResult result_;
 };

@@ -15,7 +15,8 @@ bool is_within(const TransferPoint& point, double budget_m_s) {
   return point.is_candidate() && point.change_m_s() <= budget_m_s;
 }
 
-/// The last time, from `from` towards `to`, at which `is_within` is as it is at `from`.
+/// The last time, going from `from` towards `to`, at which `is_within` has the same value as at
+/// `from`.
 double edge(TransferSearch& search, const KnownTime& from, const KnownTime& to, double budget_m_s) {
   constexpr int halvings = 12;
   search.begin_at(from.time);

@@ -6,10 +6,10 @@
 
 namespace hamjet {
 
-/// The spans of time whose transfers take no more than the scene's budget and may be the least
-/// (TransferPoint::is_candidate). Each begins and ends between a listed time, or that of the least
-/// between them, that is in it and one that is not; bisection finds where. Adds the times answered
-/// to the result.
+/// The spans of time in which transfers cost no more than the scene's budget and may be the least
+/// (TransferPoint::is_candidate). The end of a span lies between a time inside and one outside,
+/// which are listed times or the time of the least answer between them; bisection finds it. Adds
+/// the times that were answered to the result.
 std::vector<BudgetWindow> find_budget_windows(TransferResult& result, TransferPoints& points,
                                               const IntegratorSettings& integrator,
                                               const RelativeTransfer& ends,

@@ -22,7 +22,7 @@ double distance_of(const SixNumbers<double>& z) { return final_position(z).norm(
 
 Eigen::Matrix3d commanded_positions(DeputyPredictor& predictor, const SixNumbers<double>& deviation,
                                     int degree) {
-  // In units of the chief's own speed; the cube of the machine's precision balances rounding
+  // In units of the chief's own speed; the cube root of the machine's precision balances rounding
   // against the third derivative.
   const double step = std::cbrt(std::numeric_limits<double>::epsilon()) *
                       momentum_part(predictor.flow().chief_end()).norm();
@@ -46,8 +46,8 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
                                              std::span<const double> last, int degree,
                                              std::span<const double> guess) {
   constexpr int most_iterations = 60;
-  constexpr double least_part = 1e-3;  // of a step of Newton's method
-  constexpr double least_gain = 0.25;  // of the miss, that is left by a matrix that is kept
+  constexpr double least_part = 1e-3;  // least fraction of a step of Newton's method
+  constexpr double least_gain = 0.25;  // largest fraction of the miss that a kept matrix may leave
   const Eigen::Vector3d wanted(last[0], last[1], last[2]);
   const SixNumbers<double>& chief = predictor_.flow().chief_end();
   const double chief_distance = distance_of(chief);
@@ -67,18 +67,19 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
   };
   Trial best = tried({first[0], first[1], first[2], guess[0], guess[1], guess[2]});
   double rounding = 0;
-  bool is_fresh = false;  // whether the matrix is that of this start
+  bool is_fresh = false;  // whether the matrix was made at this start
   for (int i = 0; i < most_iterations && std::isfinite(best.miss.norm()); ++i) {
     if (!commanded_ || !commanded_->allFinite()) {
       commanded_ = commanded_positions(predictor_, best.start, degree);
       is_fresh = true;
     }
-    // A start that is rounded moves the end by as much times the growth on the way.
+    // Rounding of the start moves the end by as much, times the growth on the way.
     rounding = 64 * std::numeric_limits<double>::epsilon() *
                (chief_distance + commanded_->norm() * chief_momentum);
     const Eigen::Vector3d step = -commanded_->partialPivLu().solve(best.miss);
     if (best.miss.norm() <= rounding) {
-      // A kept matrix comes below the bound by little: one step more leaves what rounding leaves.
+      // With a kept matrix the miss is only just below the bound: one more step leaves rounding
+      // alone.
       const Trial next = tried(moved(best.start, step));
       if (next.miss.norm() < best.miss.norm()) best = next;
       break;
@@ -99,7 +100,7 @@ BoundaryMomenta ChartedBoundaryValues::solve(std::span<const double> first,
     if (is_slow || (!is_nearer && !is_fresh)) {
       commanded_.reset();
     } else if (!is_nearer) {
-      // Where no step comes nearer, there is no solution, or rounding is all that is left.
+      // If no step comes nearer, there is no solution, or only rounding is left.
       break;
     }
     is_fresh = false;

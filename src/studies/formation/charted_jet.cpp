@@ -22,7 +22,7 @@ namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 
-/// A scene's flow box at its duration, from this start.
+/// A scene's flow box at its duration, integrated from this start.
 FlowBoxMap<double> integrated_flow_box(const Scene& scene, const SixNumbers<double>& start,
                                        const GaussSettings& settings) {
   const ZonalGravity field = orbit_field(scene);
@@ -31,8 +31,8 @@ FlowBoxMap<double> integrated_flow_box(const Scene& scene, const SixNumbers<doub
       .advance_to(scene.duration);
 }
 
-/// The polynomials of a flow box in the chief's own units, in which the coefficients of a degree
-/// are compared with each other.
+/// The polynomials of a flow box in units that suit the chief, in which the coefficients of a
+/// degree can be compared.
 FlowJet<Extended> comparable_flow_box(const Scene& scene, ChartName section,
                                       const FlowJet<Extended>& jet) {
   const FlowBoxUnits units(section, initial_distance(scene.nominal), orbit_field(scene).mu);
@@ -55,8 +55,8 @@ void integrate_flow_box(const Scene& scene, const RunResult& run, ChartedJet& re
   result.symplecticity = map.symplecticity();
 }
 
-/// The largest difference of two states, of positions relative to the largest position of the
-/// second, and of momenta likewise: in no unit of length is one of them lost beside the other.
+/// The largest difference of two states: of positions relative to the largest position of the
+/// second state, and of momenta likewise. So neither depends on the unit of length.
 double relative_difference(std::span<const double> state, std::span<const double> other) {
   double result = 0;
   const std::size_t n = state.size() / 2;
@@ -73,7 +73,7 @@ double relative_difference(std::span<const double> state, std::span<const double
 }
 
 /// A start moved by a unit in the last place of its largest position and momentum, so that all
-/// roundings from there on are others.
+/// later roundings are different ones.
 SixNumbers<double> moved_start(const Scene& scene, std::mt19937_64& generator) {
   SixNumbers<double> start = six_numbers(scene.nominal);
   for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
@@ -109,7 +109,7 @@ void estimate_flow_box_error(const Scene& scene, ChartedJet& result) {
   result.error_estimate.by_degree = std::move(errors);
 }
 
-/// Does what an orbit or a method may not be able to; then its failure says why.
+/// Does work that may be impossible for an orbit or a method; the failure then gives the reason.
 template <class Work>
 void record_failure_of_orbit(std::string& failure, const Work& work) {
   try {

@@ -7,22 +7,23 @@
 
 namespace hamjet {
 
-/// Why a run cannot write polynomials in the scene's coordinates; nothing where it can, or these
-/// are Cartesian: those of `auto` are not known without measuring, and charts are of orbits in all
-/// six variables, flow boxes of those in double precision.
+/// The reason why a run cannot write polynomials in the scene's coordinates; no value if it can, or
+/// if the coordinates are Cartesian. Coordinates of `auto` are not known without measuring; charts
+/// need an orbit in all six variables, and flow boxes also double precision.
 std::optional<std::string> reason_without_charted_jet(const Scene& scene);
 
-/// The polynomials of a run in the scene's coordinates, at the duration: flow boxes are integrated,
-/// others made from the run's jet. What the orbit or the method lacks is said in its failure.
+/// The polynomials of a run in the scene's coordinates, at the duration. Flow boxes are integrated;
+/// polynomials in other coordinates are made from the run's jet. If the orbit or the method does
+/// not allow it, `failure` gives the reason.
 ///
 /// Where the scene estimates errors, flow boxes are integrated twice more, by Gauss methods of 16
 /// and 15 stages to the rounding of the numbers, from starts moved by a unit in the last place, so
-/// that all roundings are others. The estimate of degree d is the largest difference of a
+/// that all roundings are different. The estimate of degree d is the largest difference of a
 /// coefficient, relative to the largest of the degree, times error_estimate_safety, and never below
-/// that rounding; of degree 0 it is also that of the chief's final state, through which the section
-/// at the end goes.
+/// the rounding. For degree 0 it includes the error of the chief's final state, through which the
+/// section at the end goes.
 ///
-/// Precondition: reason_without_charted_jet says nothing and the coordinates are not Cartesian.
+/// Precondition: reason_without_charted_jet has no value, and the coordinates are not Cartesian.
 ChartedJet charted_jet(const Scene& scene, const RunResult& run);
 
 }  // namespace hamjet

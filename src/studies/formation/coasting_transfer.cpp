@@ -23,8 +23,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A transfer of two impulses in the linear flow.
 struct Candidate {
   double change_m_s = infinity;
-  double coast = 0;  ///< canonical
-  double time = 0;   ///< between the impulses
+  double coast = 0;  ///< in canonical units
+  double time = 0;   ///< time between the impulses
 };
 
 double change_m_s(const Route& route, const Underway& from, double time) {
@@ -51,12 +51,12 @@ Candidate least_for(const Route& route, const std::vector<Underway>& starts, dou
   const double first = starts[place > 0 ? place - 1 : 0].time;
   const double last = starts[std::min(place + 1, starts.size() - 1)].time;
   constexpr std::uintmax_t most_steps = 40;
-  constexpr int bits = 26;  // the square root of rounding
+  constexpr int bits = 26;  // half of the digits, as a minimum is flat
   const auto [part, change] = minimum_between(
       "start times",
       [&](double share) {
         const Underway from = route.linear_coast_to(first + share * (last - first));
-        // Finite, for parabolas go through it.
+        // The value must be finite, because parabolas go through it.
         return std::min(1e9 * least.change_m_s, change_m_s(route, from, time));
       },
       0.0, 1.0, bits, most_steps);

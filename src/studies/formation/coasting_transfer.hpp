@@ -7,13 +7,14 @@
 
 namespace hamjet {
 
-/// The linear flow over the longest wait and the last transfer time. Throws as LinearFlow.
+/// The linear flow over the longest wait plus the last transfer time. Throws as LinearFlow.
 LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem);
 
-/// The least transfer of two impulses whose first one waits for up to the scene's `longest_coast`
-/// while the deputy drifts: for some of the listed transfer times, which are between the impulses,
-/// the start is found on the linear flow, from a grid of 24 a revolution and Brent's method; the
-/// lowest are then flown. The flow is coasting_flow's.
+/// The cheapest transfer with two impulses, the first of which waits for up to the scene's
+/// `longest_coast` while the deputy drifts. The listed transfer times are the times between the
+/// impulses. For some of them the start is found on the linear flow, from a grid of 24 per
+/// revolution and Brent's method; the cheapest candidates are then flown. The flow is that of
+/// coasting_flow.
 CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& problem,
                                    const LinearFlow& flow, const ProgressCallback& progress);
 

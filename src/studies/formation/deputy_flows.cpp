@@ -15,7 +15,8 @@
 namespace hamjet {
 namespace {
 
-/// Does what needs coordinates at a time; an orbit that has not such is told with their name.
+/// Does work that needs coordinates at a time; if the orbit does not have them, the error names the
+/// coordinates.
 template <class Work>
 auto in_coordinates(JetCoordinates coordinates, const std::string& when, const Work& work) {
   try {
@@ -105,7 +106,7 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
                      gauss_settings_of(settings));
     } else {
       CanonicalChart<double>(chart_of(coordinates.start), start_,
-                             canonical_mu);  // throws if it must
+                             canonical_mu);  // throws if there is none
       jets_.emplace(problem, settings);
     }
   });
@@ -150,7 +151,7 @@ std::vector<std::string> DeputyFlowPropagation::variable_names() const {
     const auto names = coordinate_names(chart_of(coordinates_.start));
     return {names.begin(), names.end()};
   }
-  // The time since the section and the ignored coordinate go by beside the polynomials.
+  // The time since the section and the ignored coordinate bypass the polynomials.
   const auto names = flow_box_coordinate_names(*last_box_->start);
   return {names.begin() + 1,
           names.begin() + 1 + static_cast<std::ptrdiff_t>(last_box_->start->variables())};
@@ -159,7 +160,7 @@ std::vector<std::string> DeputyFlowPropagation::variable_names() const {
 std::vector<std::string> DeputyFlowPropagation::value_names() const {
   const std::array<std::string, 6> names = end_coordinate_names();
   std::vector<std::string> result(names.begin(), names.end());
-  // The period is that of the start.
+  // The period is that of the start, so that it is no coordinate of the end.
   if (last_box_) result.erase(result.begin() + 1);
   return result;
 }

@@ -13,74 +13,75 @@
 
 namespace hamjet {
 
-/// An orbit's gravitational parameter in its canonical units.
+/// The gravitational parameter of an orbit in its canonical units.
 inline constexpr double canonical_mu = 1;
 
-/// The gravity field of a scene about an orbit, canonical.
+/// The gravity field of a scene about an orbit, in canonical units.
 ZonalGravity orbit_field(const Scene& scene);
 
-/// The Gauss method of an integrator, which flow boxes are integrated by. Throws Error(scene) for
-/// other methods.
+/// The Gauss method of an integrator, which integrates flow boxes. Throws Error(scene) for other
+/// methods.
 GaussSettings gauss_settings_of(const IntegratorSettings& settings);
 
 /// The six numbers of an orbit's state.
 SixNumbers<double> six_numbers(std::span<const double> state);
 
-/// The flow in coordinates of both ends, which are no flow boxes, of a jet in positions and momenta
-/// about a start. Throws Error(numerical) where an end has not such coordinates.
+/// The flow, in coordinates of both ends that are not flow boxes, made from a jet in positions and
+/// momenta about a start. Throws Error(numerical) if an end does not have these coordinates.
 std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
                                                const SixNumbers<double>& start,
                                                const CoordinatesAtEnds& coordinates);
 
-/// What a scene's polynomials say of deputies, in some coordinates, from time to time.
+/// Predictions of a scene's polynomials for deputies, in some coordinates, from time to time.
 class DeputyFlowPropagation {
  public:
-  /// `scene` and `problem`, of an orbit in all six variables, must outlive it; `settings` are those
-  /// of the integrator. `coordinates` must fit each other and not be automatic. Throws
-  /// Error(numerical) where the orbit has not such coordinates at its start, and Error(scene) for
-  /// flow-box coordinates with an integrator that is no Gauss method.
+  /// `scene` and `problem`, of an orbit in all six variables, must outlive this object; `settings`
+  /// are those of the integrator. `coordinates` must fit each other and not be automatic. Throws
+  /// Error(numerical) if the orbit does not have these coordinates at its start, and Error(scene)
+  /// for flow boxes with an integrator that is not a Gauss method.
   DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                         const IntegratorSettings& settings, const CoordinatesAtEnds& coordinates);
 
-  /// The flow to a time, canonical, further on than the last one. Throws as the integrator, and as
-  /// the constructor for the coordinates at the end.
+  /// The flow to a canonical time, later than the last one. Throws as the integrator, and as the
+  /// constructor for the coordinates at the end.
   std::unique_ptr<DeputyFlow> advance_to(double time);
 
-  /// The coordinates at the last time as series in the initial deviations, less the chief's: those
+  /// The coordinates at the last time as series in the initial deviations, minus the chief's: those
   /// of the chart, or of flow boxes (flow_box_coordinates).
   std::vector<Series<double>> end_coordinates() const;
-  /// Their names.
+  /// The names of these coordinates.
   std::array<std::string, 6> end_coordinate_names() const;
-  /// The place among them of the period's difference, which flow boxes of bound orbits have for the
-  /// energy.
+  /// The index among these of the period's difference, which replaces the energy in flow boxes of
+  /// bound orbits.
   std::optional<std::size_t> end_period_place() const;
   /// The names of the polynomials' variables, and of their values at the last time.
   std::vector<std::string> variable_names() const;
   std::vector<std::string> value_names() const;
 
-  /// The map of the last time, of flow boxes; nothing of others.
+  /// The flow-box map at the last time; no value for other coordinates.
   const std::optional<FlowBoxMap<double>>& flow_box() const noexcept { return last_box_; }
 
   const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
-  /// Summed over the integrations.
+  /// Statistics summed over all integrations.
   const IntegrationStatistics& statistics() const;
 
  private:
   ZonalGravity field_;
   SixNumbers<double> start_;
   CoordinatesAtEnds coordinates_;
-  double time_s_;                       ///< the canonical unit, for messages
-  std::optional<JetPropagation> jets_;  ///< unless of flow boxes
+  double time_s_;                       ///< the canonical unit of time, for messages
+  std::optional<JetPropagation> jets_;  ///< absent for flow boxes
   std::optional<FlowBoxPropagation<double>> boxes_;
-  std::optional<FlowMap<double>> last_jet_;     ///< unless of flow boxes
-  std::optional<FlowBoxMap<double>> last_box_;  ///< of flow boxes
+  std::optional<FlowMap<double>> last_jet_;     ///< absent for flow boxes
+  std::optional<FlowBoxMap<double>> last_box_;  ///< for flow boxes only
 };
 
-/// What is to be said of a scene whose flow boxes gain nothing: on an orbit that is no ellipse, or
-/// hardly one, time and energy across its sections bend as much as positions do. Nothing elsewhere.
+/// A note about a scene whose flow boxes bring no advantage: on an orbit that is not an ellipse, or
+/// hardly one, time and energy across its sections are as nonlinear as positions. Otherwise no
+/// value.
 std::optional<std::string> escape_note(const Scene& scene);
 
-/// The chart that coordinates other than flow boxes are of.
+/// The chart that belongs to coordinates other than flow boxes.
 ChartName chart_of(JetCoordinates coordinates);
 
 }  // namespace hamjet

@@ -20,7 +20,8 @@
 namespace hamjet {
 namespace {
 
-/// A jet takes longer than a flight does: long motions have fewer points than their path needs.
+/// A jet takes longer than a flight, so that long motions have fewer points than their path would
+/// need.
 constexpr IntervalCount points_of_motion = {48, 64, 1024};
 
 }  // namespace
@@ -91,7 +92,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
       }
       point.errors_m.push_back(std::sqrt(square) * units.length_m);
     }
-    // Every flight from time to time rounds its start anew, and independently.
+    // Every flight from time to time has an independent rounding error of its start.
     point.flight_floor_m = std::sqrt(index + 1.0) *
                            rounding_of_flights(problem, linear_flow.advance_to(time)) *
                            units.length_m;

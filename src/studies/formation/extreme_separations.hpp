@@ -4,25 +4,25 @@
 
 namespace hamjet {
 
-/// The distance of a deputy from its chief. It is computed here alone, so that all who show it have
-/// the same digits.
+/// The distance of a deputy from its chief. It is computed in this function alone, so that all
+/// output has the same digits.
 double separation_m(const RelativeState& state);
 
-/// Where a deputy is at a time of its own.
+/// The relative state of a deputy at a time.
 struct SeparationAt {
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   RelativeState state;
 };
 
-/// When a deputy is nearest to its chief and when farthest.
+/// The states in which a deputy is nearest to its chief and farthest from it.
 struct ExtremeSeparations {
   SeparationAt nearest;
   SeparationAt farthest;
 };
 
-/// The extremes of a deputy that starts with this deviation from the scene's chief (canonical) and
-/// flies for a time without impulses; states in `frame`. No look between the steps of the flight is
-/// left out, see ExtremeDistance. Throws as fly_arcs.
+/// The extremes for a deputy that starts with this canonical deviation from the scene's chief and
+/// flies for a time without impulses; states are in `frame`. Nothing between the steps of the
+/// flight is missed, see ExtremeDistance. Throws as fly_arcs.
 ExtremeSeparations extreme_separations(const Scene& scene, const std::vector<double>& deviation,
                                        RelativeFrame frame, double time);
 

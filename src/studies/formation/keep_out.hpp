@@ -9,21 +9,21 @@
 namespace hamjet {
 
 /// The least of |(R/a, T/b, N/c)| along the flight of a deputy, with the semi-axes of the scene's
-/// `keep_out_m`: below 1 it enters the ellipsoid. Both start now, the chief in `chief`, the deputy
-/// with this deviation from it (canonical), and fly for a time without impulses. No look between
-/// the steps of the flight is left out, see ExtremeDistance. Throws as fly_arcs, and
+/// `keep_out_m`; below 1 the deputy enters the ellipsoid. The chief starts in `chief` and the
+/// deputy with this canonical deviation from it; both fly for a time without impulses. Nothing
+/// between the steps of the flight is missed, see ExtremeDistance. Throws as fly_arcs, and
 /// Error(numerical) for a chief without an orbital plane.
 double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
                       const std::vector<double>& deviation, double time);
 
-/// What forbids a deputy to fly on from a state for a time, if the scene's limits do: that it
-/// enters the ellipsoid, or passes below the surface; empty: nothing does.
+/// Collects the reasons, if any, why the scene's limits forbid a deputy's trajectory: it enters the
+/// ellipsoid, or passes below the surface.
 class WayLimits {
  public:
   explicit WayLimits(const Scene& scene);
-  /// Looks at a leg of the way, from the chief's state and the deputy's deviation from it.
+  /// Examines a leg of the trajectory, from the chief's state and the deputy's deviation from it.
   void fly(const std::vector<double>& chief, const std::vector<double>& deviation, double time);
-  /// What was found over all legs.
+  /// The reason found over all legs; empty if there is none.
   std::string forbidden() const;
 
  private:

@@ -32,11 +32,11 @@ struct TimeEquation {
   }
 };
 
-/// Values of x beyond which an ellipse is a parabola, or falls through the centre.
+/// Beyond these values of x an ellipse is nearly a parabola, or falls through the centre.
 constexpr double outermost = 1 - 1e-9;
 
-/// The root of T(x) = time between two x at which it is on both sides; none if it is not. Throws as
-/// root_between, also where a side is no number.
+/// The root of T(x) = time between two x at which T - time has different signs; empty if the signs
+/// are equal. Throws as root_between, also if a value is NaN.
 std::vector<double> shape_between(const TimeEquation& equation, double time, double a, double b) {
   const auto difference = [&](double x) { return equation.time(x) - time; };
   const double at_a = difference(a), at_b = difference(b);
@@ -44,7 +44,8 @@ std::vector<double> shape_between(const TimeEquation& equation, double time, dou
   return {root_between("ellipses between two places", difference, {a, at_a}, {b, at_b}, 50)};
 }
 
-/// One root without a revolution, as the time falls with x; two with some, beside its minimum.
+/// Without a whole revolution there is one root, because the time falls with x; with some there are
+/// two, on either side of the minimum.
 std::vector<double> roots(const TimeEquation& equation, double time) {
   if (equation.revolutions == 0) return shape_between(equation, time, -outermost, outermost);
   constexpr int bits = 26;
@@ -74,19 +75,19 @@ std::vector<LambertEllipse> lambert_ellipses(const Eigen::Vector3d& first,
   const double chord = (last - first).norm();
   const double s = (r1 + r2 + chord) / 2;
   const bool is_short = angle_about(first, last, momentum) <= pi;
-  // lambda = sqrt(r1 r2) cos(theta / 2) / s, without the difference of 1 - c / s.
+  // lambda = sqrt(r1 r2) cos(theta / 2) / s, which avoids the difference 1 - c / s.
   const double cosine = first.dot(last) / (r1 * r2);
   const double half = std::sqrt(std::max(0.0, (1 + cosine) / 2));
   TimeEquation equation;
   equation.lambda = (is_short ? 1 : -1) * std::sqrt(r1 * r2) * half / s;
   equation.revolutions = revolutions;
-  // The normal of the plane, along the motion.
+  // The normal of the plane, in the sense of the motion.
   const Eigen::Vector3d u1 = first / r1;
   Eigen::Vector3d normal = (is_short ? 1 : -1) * u1.cross(last / r2);
   constexpr double on_a_line = 1e-6;
   if (normal.norm() < on_a_line) normal = momentum - momentum.dot(u1) * u1;
   const Eigen::Vector3d along = normal.normalized().cross(u1);
-  // With c = 0 both ends are one point, and the ratio of the two is any.
+  // If c = 0, both ends are one point, and the ratio has no influence.
   const double rho = chord > 0 ? (r1 - r2) / chord : 0;
   const double sigma = std::sqrt(std::max(0.0, 1 - rho * rho));
   const double gamma = std::sqrt(s / 2);

@@ -9,8 +9,9 @@
 namespace hamjet {
 namespace {
 
-/// Whole numbers, so that sums are exact. The algorithm adds the distances of vertices that it
-/// cannot reach, which are the largest number there is: integers would overflow.
+/// Weights are whole numbers, so that sums are exact. They are stored as doubles because the
+/// algorithm adds the distances of vertices that it cannot reach, which are the largest number of
+/// the type: integers would overflow.
 using Weight = double;
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
 using EdgeProperties = boost::property<
@@ -46,7 +47,7 @@ std::optional<Assignment> least_assignment(const std::vector<std::vector<double>
     }
   }
   const double scale = largest > 0 ? resolution / largest : 1;
-  // Vertices: rows, columns, source, sink.
+  // The vertices are rows, columns, source and sink.
   const std::size_t source = rows + columns;
   const std::size_t sink = source + 1;
   Graph graph(sink + 1);

@@ -58,7 +58,7 @@ std::vector<Span> lowest_spans(const TransferResult& result) {
   return spans;
 }
 
-/// Looks for the least of one span.
+/// Searches the least answer of one span.
 class SpanMinimum {
  public:
   SpanMinimum(TransferSearch& search, const Span& span, double least)
@@ -66,10 +66,10 @@ class SpanMinimum {
     search.begin_at(span.first);
   }
 
-  /// The point, if it is lower than the least known before.
+  /// The answer, if it is lower than the least one known before.
   std::optional<TransferPoint> find() {
     constexpr int parts = 12;
-    // A minimum this much above the least of the grid is not worth its refinement.
+    // A minimum that is above the least of the grid by this factor is not worth refining.
     constexpr double worth_refining = 1.1;
     double lowest = std::numeric_limits<double>::infinity();
     int place = 0;
@@ -81,8 +81,8 @@ class SpanMinimum {
       }
     }
     if (!(lowest <= worth_refining * least_)) return found_;
-    // Where there is no answer the change is as if it were large, but finite: parabolas go through
-    // it.
+    // If there is no answer, the change is replaced by a large but finite number, because parabolas
+    // go through it.
     const double large = 2 * std::max(lowest, least_);
     constexpr std::uintmax_t most_answers = 40;
     constexpr int bits = 20;

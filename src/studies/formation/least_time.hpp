@@ -6,20 +6,20 @@
 
 namespace hamjet {
 
-/// Answers one transfer at any times of a span, from jets that go on from the span's first time.
-/// What it looks at must outlive it.
+/// Answers one transfer at any times of a span, from jets that continue from the span's first time.
+/// All arguments of the constructor must outlive it.
 class TransferSearch {
  public:
   TransferSearch(TransferPoints& points, const IntegratorSettings& integrator,
                  const RelativeTransfer& ends)
       : points_(points), ends_(ends), propagation_(points.jet_problem(), integrator) {}
 
-  /// The first time of a span; the spans of further calls move away from 0.
+  /// Sets the first time of a span; successive spans move away from 0.
   void begin_at(double time);
-  /// The answer at a time of the span, the same in whatever order the times are asked for.
+  /// The answer at a time of the span. It does not depend on the order of the calls.
   TransferPoint at(double time);
 
-  std::size_t count() const { return count_; }  ///< of times answered
+  std::size_t count() const { return count_; }  ///< number of times answered
   double propagation_seconds() const { return propagation_.statistics().wall_seconds + seconds_; }
 
  private:
@@ -27,7 +27,7 @@ class TransferSearch {
   const RelativeTransfer& ends_;
   JetPropagation propagation_;  ///< at the span's first time
   std::size_t count_ = 0;
-  double seconds_ = 0;  ///< of the propagations within spans
+  double seconds_ = 0;  ///< time of the propagations within spans
 };
 
 /// Minimises the velocity change between the listed times: about each of the three lowest listed

@@ -16,7 +16,8 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
     return ChiefFrame(chief, units, scene.transfer->frame);
   };
   std::vector<const AssignedTransfer*> flown;
-  // The deputies after their first impulses, then the chief, for its frame at their arrivals.
+  // The deputies after their first impulses, then the chief, which defines the frame at their
+  // arrivals.
   std::vector<std::vector<double>> states;
   std::vector<double> arrivals;
   for (const AssignedTransfer& assigned : transfers) {

@@ -8,7 +8,7 @@
 namespace hamjet {
 namespace {
 
-/// An orbit's gravitational parameter in its canonical units.
+/// The gravitational parameter of an orbit in its canonical units.
 const Extended extended_mu = 1;
 
 SixNumbers<Extended> extended_state(std::span<const double> state) {

@@ -11,12 +11,12 @@
 
 namespace hamjet {
 
-/// Between the positions and momenta of an orbit's jet and the coordinates of one pair of charts
-/// about the chief, which must not be flow boxes nor automatic. In extended precision, for what is
-/// stored.
+/// Converts between the positions and momenta of an orbit's jet and the coordinates of one pair of
+/// charts about the chief, which must not be flow boxes nor automatic. It works in extended
+/// precision, for jets that are stored.
 class OrbitCharts {
  public:
-  /// Of the chief's canonical states at both ends. Throws as CanonicalChart.
+  /// Takes the chief's canonical states at both ends. Throws as CanonicalChart.
   OrbitCharts(const CoordinatesAtEnds& coordinates, std::span<const double> start,
               std::span<const double> end);
 
@@ -29,7 +29,7 @@ class OrbitCharts {
   CanonicalChart<Extended> end_;
 };
 
-/// Rounds a jet that is of double precision to the numbers that such have.
+/// Rounds the coefficients of a jet to double precision, if that is its precision.
 void round_to(Precision precision, FlowJet<Extended>& jet);
 
 }  // namespace hamjet

@@ -25,13 +25,15 @@ Eigen::Vector3d angular_momentum(const std::vector<double>& state) {
   return position_of(state).cross(momentum_of(state));
 }
 
-/// The angle between two positions of one motion, less than half a revolution apart.
+/// The angle between two successive positions of one motion, which are less than half a revolution
+/// apart.
 double angle_between(const std::vector<double>& a, const std::vector<double>& b) {
   const double cosine = position_of(a).normalized().dot(position_of(b).normalized());
   return std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-/// The angle that a state turns through in a time, flown; no step of a flight is half a revolution.
+/// The angle through which a state turns in a time, by flying; no step of a flight is half a
+/// revolution.
 double turned_angle(const SharedSystem& system, const std::vector<double>& state, double time) {
   double angle = 0;
   fly_arcs(system, {state}, 0, time, [&](const FlightArc& arc) {
@@ -41,7 +43,7 @@ double turned_angle(const SharedSystem& system, const std::vector<double>& state
   return angle;
 }
 
-/// The angle that the chief turns through until each checkpoint of the flow, along its motion.
+/// The angle through which the chief turns, along its motion, until each checkpoint of the flow.
 std::vector<double> turned_angles(const LinearFlow& flow) {
   std::vector<double> angles = {0};
   std::vector<double> last = flow.nominal(0);
@@ -53,7 +55,7 @@ std::vector<double> turned_angles(const LinearFlow& flow) {
   return angles;
 }
 
-/// The transfers of one time.
+/// The transfers for one transfer time.
 class TransfersOfTime {
  public:
   TransfersOfTime(const SharedSystem& system, const Route& route, const LinearFlow& flow,
@@ -69,7 +71,7 @@ class TransfersOfTime {
         angle_(angle_about(position_of(first_), position_of(last_), sense_)),
         own_(static_cast<int>(std::lround((chief_angle - angle_) / turn))) {}
 
-  /// Adds the transfers that make so many revolutions more than the chief.
+  /// Adds the transfers that make this many revolutions more than the chief.
   void add(Route& route, int difference, std::vector<RevolutionTransfer>& transfers) const {
     const int revolutions = own_ + difference;
     if (revolutions < 0) return;
@@ -108,7 +110,7 @@ class TransfersOfTime {
     try {
       const Underway there =
           route.fly_from_guess(from_, time_, wanted_, std::move(guess), transfer.plan);
-      // Newton's method may have come to a way with another number of revolutions.
+      // Newton's method may have arrived at a trajectory with another number of revolutions.
       const double wanted = own_ + transfer.difference + angle_ / turn;
       const double found = turned_angle(system_, state_sum(chief_, route.begun()), time_) / turn;
       if (std::abs(found - wanted) > 0.5) {
@@ -117,7 +119,7 @@ class TransfersOfTime {
                                 "found, but one of {:.2f}",
                                 wanted, found));
       }
-      // The linear flow about the chief says nothing of a way so far from it.
+      // The linear flow about the chief does not apply to a trajectory so far from it.
       route.finish(there, transfer.plan, false);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
@@ -127,15 +129,15 @@ class TransfersOfTime {
   }
 
   const SharedSystem& system_;
-  std::vector<double> chief_;  ///< at the start
+  std::vector<double> chief_;  ///< chief's state at the start
   Underway from_;
   double time_;
   std::vector<double> wanted_;  ///< deviation at the end
-  std::vector<double> first_;   ///< states of the deputy: before the first impulse, at the end
+  std::vector<double> first_;   ///< states of the deputy: before the first impulse, and at the end
   std::vector<double> last_;
-  Eigen::Vector3d sense_;  ///< of the motion, as time goes by
-  double angle_;           ///< from the first position to the last, less than a revolution
-  int own_;                ///< whole revolutions of the deputy beside its chief
+  Eigen::Vector3d sense_;  ///< angular momentum of the motion in the direction of increasing time
+  double angle_;           ///< angle from the first position to the last, less than a revolution
+  int own_;                ///< number of whole revolutions of a deputy that stays beside its chief
 };
 
 }  // namespace

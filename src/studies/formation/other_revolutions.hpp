@@ -7,12 +7,12 @@
 
 namespace hamjet {
 
-/// Transfers whose deputy makes so many whole revolutions more or fewer than its chief as the
-/// scene's `revolutions` say: from the ellipses of Lambert's problem by Newton's method on flown
-/// trajectories, for each of the scene's transfer times. The chief's own number is that for which
-/// the deputy's angle is nearest to the chief's; of the ellipses that make it, the one whose
-/// velocity is nearest to the deputy's own is the transfer that polynomials answer, and is left
-/// out.
+/// Transfers in which the deputy makes as many whole revolutions more or fewer than its chief as
+/// the scene's `revolutions` say, for each of the scene's transfer times. They are found from the
+/// ellipses of Lambert's problem by Newton's method on flown trajectories. A difference of 0 means
+/// the number for which the deputy's angle is nearest to the chief's. Of the ellipses with this
+/// number, the one whose velocity is nearest to the deputy's own is the transfer that polynomials
+/// answer; it is left out.
 OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& problem,
                                    const LinearFlow& flow, const ProgressCallback& progress);
 

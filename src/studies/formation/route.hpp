@@ -10,27 +10,26 @@
 
 namespace hamjet {
 
-/// A deputy on its way: its deviation from the chief at a time, before any impulse there.
+/// A deputy in flight: its deviation from the chief at a time, before any impulse at that time.
 struct Underway {
   double time = 0;
   std::vector<double> deviation;  ///< canonical (dq, dp)
 };
 
-/// Legs of a deputy's way from the scene's start to its end, each flown from place to place. What
-/// it looks at must outlive it.
+/// The legs of a deputy's way from the scene's start to its end, each flown from place to place.
+/// All arguments of the constructor must outlive it.
 class Route {
  public:
   Route(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow);
 
-  /// Where the deputy starts, and where it is after a time without an impulse, flown. Throws as
-  /// exact_flow.
+  /// The deputy at the start, and after a time of flight without an impulse. Throws as exact_flow.
   Underway start() const;
   Underway coast_to(double time) const;
-  /// The same in the linear flow.
+  /// The deputy after a time without an impulse, in the linear flow.
   Underway linear_coast_to(double time) const;
 
   /// The sum of the magnitudes of both impulses of a leg to the scene's end, in the linear flow.
-  /// Throws Error(numerical) where no velocity commands it.
+  /// Throws Error(numerical) if no velocity leads there.
   double linear_change_m_s(const Underway& from, double time) const;
 
   /// Canonical deviations from the chief at a time: of a place along the axes of the scene's frame,
@@ -38,21 +37,22 @@ class Route {
   std::vector<double> place(double time, const Eigen::Vector3d& position_m) const;
   std::vector<double> end(double time) const;
 
-  /// Adds the leg from where the deputy is to the place of a deviation from the chief then, with
-  /// the impulse at its start, from the linear flow's answer by Newton's method until it
-  /// misses by no more than the scene's `refined_miss_m`. Throws Error(numerical) if that is not
-  /// found.
+  /// Adds the leg from the deputy's present state to the place with a given deviation from the
+  /// chief at `time`, with the impulse at its start. The answer of the linear flow is corrected by
+  /// Newton's method until the miss is at most the scene's `refined_miss_m`. Throws
+  /// Error(numerical) if this fails.
   Underway fly_to(const Underway& from, double time, const std::vector<double>& wanted,
                   WaypointPlan& plan);
-  /// The same from a guess of the deputy's state at the start of the leg, the impulse made.
+  /// As fly_to, but starts from a guess of the deputy's state at the start of the leg, after the
+  /// impulse.
   Underway fly_from_guess(const Underway& from, double time, const std::vector<double>& wanted,
                           std::vector<double> guess, WaypointPlan& plan);
-  /// Adds the impulse at the end, and what the whole plan allows to say, of the legs' primer
-  /// vectors if `has_primer`.
+  /// Adds the impulse at the end, and results that need the whole plan; primer vectors of the legs
+  /// if `has_primer`.
   void finish(const Underway& there, WaypointPlan& plan, bool has_primer = true) const;
-  /// The deviation from the chief at the start of the last leg, the impulse made.
+  /// The deviation from the chief at the start of the last leg, after the impulse.
   const std::vector<double>& begun() const { return ways_.back(); }
-  /// Forgets the legs behind the first ones.
+  /// Removes the legs after the first `count`.
   void keep_legs(std::size_t count) { ways_.resize(count); }
 
  private:
@@ -72,7 +72,8 @@ class Route {
   const LinearFlow& flow_;
   MetricUnits units_;
   double momentum_unit_;
-  std::vector<std::vector<double>> ways_;  ///< deviations at the starts of the legs, impulses made
+  /// Deviations at the starts of the legs, after the impulses.
+  std::vector<std::vector<double>> ways_;
 };
 
 }  // namespace hamjet

@@ -14,20 +14,20 @@ namespace hamjet {
 /// SI values of a scene's units.
 MetricUnits metric_units(const Scene& scene);
 
-/// Rounding of the positions of two flights: that of the end, and that of the chief's start grown
-/// with the jet's linear part; canonical.
+/// Rounding of the positions of two flights, in canonical units: that of the end, and that of the
+/// chief's start, grown with the jet's linear part.
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet);
-/// The same from the linear part alone, between two states of the chief.
+/// This rounding from the linear part alone, between two states of the chief.
 double rounding_of_flights(const Matrix<double>& linear, std::span<const double> start,
                            std::span<const double> end, int momentum_exponent);
-/// The same from the linear flow of a time, which is integrated.
+/// This rounding from the linear flow of a time, which is integrated.
 double rounding_of_flights(const ComputedProblem& problem, double time);
 
-/// The two-point problems of one transfer time: by a generating function of the jet or, where there
-/// is a flow in other coordinates, through its polynomials.
+/// The two-point problems of one transfer time, solved by a generating function of the jet or, if
+/// there is a flow in other coordinates, by its polynomials.
 class TransferBoundary {
  public:
-  /// Both must outlive it; `flow` may be null, and `inversion` is there if it is.
+  /// Both must outlive this object. `flow` may be null; then `inversion` must be present.
   TransferBoundary(const std::optional<PartialInversion<double>>& inversion,
                    const DeputyFlow* flow) {
     if (flow == nullptr) {
@@ -47,37 +47,38 @@ class TransferBoundary {
   std::optional<ChartedBoundaryValues> charted_;
 };
 
-/// One transfer of a deputy, from one relative state to another in one time. What it looks at must
-/// outlive it.
+/// One transfer of a deputy, from one relative state to another in one time. All arguments of the
+/// constructor must outlive it.
 class SingleTransfer {
  public:
-  /// `chief_end` is the chief's state at the end, `time` canonical.
+  /// `chief_end` is the chief's state at the end; `time` is canonical.
   SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
                  const std::vector<double>& chief_end, const RelativeState& start,
                  const ArrivalState& end);
 
-  /// The deviation at the start, after the first impulse, that the linear flow alone asks for.
+  /// The deviation at the start, after the first impulse, by the linear flow alone.
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
-  /// The deviation of the momentum before the first impulse: where the deputy's orbit is like the
-  /// chief's, so is the one that is looked for, however far apart the two are.
+  /// The deviation of the momentum before the first impulse. If the deputy's orbit is similar to
+  /// the chief's, the wanted momentum is similar too, however far apart both are.
   std::vector<double> momentum_before() const { return {start_.begin() + 3, start_.end()}; }
-  /// The momenta of one order; in other coordinates than Cartesian from a guess of the first.
-  /// Throws as PositionBoundaryValues::solve and ChartedBoundaryValues::solve.
+  /// The momenta by the polynomials of one order. In coordinates other than Cartesian, Newton's
+  /// method starts from a guess of the first momentum. Throws as PositionBoundaryValues::solve and
+  /// ChartedBoundaryValues::solve.
   BoundaryMomenta solve(TransferBoundary& boundary, int order, std::span<const double> guess) const;
   /// The variables of a kind's generating function with these momenta.
   std::vector<double> variables(const GeneratingFunctionKind& kind,
                                 const BoundaryMomenta& momenta) const;
-  /// The velocity changes that the momenta ask for.
+  /// The velocity changes that lead to these momenta.
   TransferAnswer answer(const BoundaryMomenta& momenta, int order) const;
-  /// Flies the deputy from the start with this initial momentum (a deviation): (dq, dp) at the end.
-  /// Throws Error(numerical) as exact_flow.
+  /// Flies the deputy from the start with this initial momentum (a deviation); returns (dq, dp) at
+  /// the end. Throws Error(numerical) as exact_flow.
   std::vector<double> fly(const std::vector<double>& initial_momentum) const;
   /// Distance in metres of a flown deviation from the wanted end.
   double miss_m(const std::vector<double>& flown) const;
-  /// Newton's method on the flown miss with the derivatives of the jet at this time, from the
-  /// momenta of the highest order until the scene's `refined_miss_m` is reached. The failure of an
-  /// answer that does not get there is recorded in it. Adds the number of flights to `flights`.
-  /// The derivatives are those of `flow` where it is not null.
+  /// Newton's method on the flown miss, starting from the momenta of the highest order, until the
+  /// scene's `refined_miss_m` is reached. The derivatives are those of the jet at this time or, if
+  /// it is not null, of `flow`. If the method fails, the reason is recorded in the answer. Adds the
+  /// number of flights to `flights`.
   TransferAnswer refine(const FlowJet<double>& jet, const DeputyFlow* flow, BoundaryMomenta momenta,
                         int& flights) const;
 

@@ -47,7 +47,7 @@ std::vector<SingularTime> TransferResult::position_singularities() const {
 namespace {
 
 /// The chief of an earlier jet may differ from the scene's by no more than integrators do, relative
-/// to the distance of its start.
+/// to the initial distance.
 constexpr double largest_chief_distance = 1e-6;
 
 void require_same_chief(const Scene& scene, const EarlierJet& earlier, double distance_m) {
@@ -61,7 +61,7 @@ void require_same_chief(const Scene& scene, const EarlierJet& earlier, double di
 
 }  // namespace
 
-// Compiled once, so that command and Python module have the same digits.
+// Compiled once, so that command and Python module give the same digits.
 double TransferAnswer::total_change_m_s() const {
   return start_change_m_s.norm() + end_change_m_s.norm();
 }
@@ -78,7 +78,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   TransferResult result;
   result.scene = scene;
   const RelativeTransfer ends{settings.start, settings.end};
-  // A wait that is too long is refused before the work.
+  // A wait that is too long is refused before the work starts.
   const ComputedProblem problem = make_problem(scene);
   std::optional<LinearFlow> waiting;
   if (settings.longest_coast) waiting = coasting_flow(scene, problem);
@@ -159,7 +159,7 @@ int exit_code(const TransferResult& result) {
                 (point.refined && !point.is_refined());
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
-  // What the limits forbid to two impulses at the listed times another way may do within them.
+  // If the limits forbid two impulses at the listed times, another kind of transfer may keep them.
   const bool has_allowed = result.best_point() || (result.optimal && result.optimal->is_found()) ||
                            (result.waypoints && result.waypoints->best_plan) ||
                            (result.coasting && result.coasting->plan) ||

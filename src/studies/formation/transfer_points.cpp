@@ -37,7 +37,7 @@ std::optional<Eigen::Vector3d> along_rtn(const std::vector<double>& chief,
 
 using FlowMatrix = Eigen::Matrix<double, 6, 6>;
 
-/// The answer that `work` gives, or its numerical failure.
+/// The answer that `work` returns, or its numerical failure.
 template <class Work>
 TransferAnswer attempt(int order, const Work& work) {
   try {
@@ -84,9 +84,9 @@ const DeputyFlow* TransferPoints::charted_flow(double time) {
 void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   const Stopwatch watch(seconds_.singularities);
   const double last = settings_.times.back();
-  // The flow goes a little beyond the last time, so that a singularity right behind it is seen too;
-  // no more than a quarter of a revolution at the initial distance, in which some singularity lies
-  // anyway.
+  // The flow goes a little beyond the last time, so that a singularity just after it is seen too.
+  // It goes no further than a quarter of a revolution at the initial distance, within which there
+  // is some singularity anyway.
   const double quarter = std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5);
   const double margin = std::min(settings_.singular_margin, quarter);
   flow_.emplace(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
@@ -130,7 +130,7 @@ std::vector<double> TransferPoints::expansion_parameters(
   std::vector<double> parameters;
   for (const GeneratingFunctionKind& kind : kinds_) {
     blocks.emplace_back(inverted_block(comparable, kind));
-    // Round-off is amplified too, and decides where nothing else does.
+    // Round-off is amplified too, and decides if nothing else does.
     parameters.push_back(std::numeric_limits<double>::epsilon() * comparable.norm() *
                          blocks.back().inverse().norm());
   }
@@ -197,12 +197,13 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
     point.kind = chosen.inversion->kind;
     point.condition = chosen.inversion->condition;
   }
-  // The ends are relative to the chief as it flies: an inaccurate integrator must not prove itself.
+  // The ends are relative to the flown chief: otherwise an inaccurate integrator would confirm
+  // itself.
   std::optional<SingleTransfer> of_ends;
   try {
     of_ends.emplace(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start, ends.end);
   } catch (const Error& error) {
-    // The end may have a form that is not defined where the chief is then.
+    // The end may be given in a form that is not defined at the chief's state then.
     if (error.kind() != ErrorKind::numerical) throw;
     point.failure = error.what();
     return point;
@@ -244,7 +245,8 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   }
   if (point.has_answer()) {
     judge_limits(ends, point);
-    // The generating function is one of positions and momenta, which may not reach so far.
+    // The generating function is one of positions and momenta, which may not reach as far as other
+    // coordinates.
     if (flow != nullptr) return point;
     measure_residual(chosen, jet, transfer.variables(chosen.inversion->kind, momenta.back()),
                      point);
@@ -279,7 +281,7 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
     point.lowest = lowest_point(problem_.system, deputy, point.time).distance;
     point.is_below_surface = *point.lowest < *surface;
   }
-  // A way through the centre need not be looked at further.
+  // A trajectory through the centre need not be examined further.
   if (settings_.keep_out_m && point.lowest != 0.0) {
     point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
   }

@@ -12,30 +12,32 @@
 
 namespace hamjet {
 
-/// The kind with which one time's transfers are answered, and its jet solved for it. Polynomials in
-/// other coordinates answer them without a generating function.
+/// The kind by which the transfers of one time are answered, and the jet solved for it. Polynomials
+/// in other coordinates need no generating function.
 struct ChosenKind {
   double time = 0;
   std::vector<double> conditions;  ///< condition numbers of all kinds, F1's first
-  std::optional<PartialInversion<double>> inversion;  ///< none in other coordinates
-  std::string failure;                                ///< not empty: there is no inversion, and why
+  std::optional<PartialInversion<double>> inversion;  ///< no value in other coordinates
+  std::string failure;  ///< if not empty, the reason why there is no inversion
 };
 
-/// The two relative states that a transfer leads from and to.
+/// The two relative states between which a transfer leads.
 struct RelativeTransfer {
   RelativeState start;
   ArrivalState end;
 };
 
-/// Answers transfers about one chief, time after time. What it looks at must outlive it.
+/// Answers transfers about one chief, time after time. All arguments of the constructor must
+/// outlive it.
 class TransferPoints {
  public:
-  /// Finds the singular times of all kinds up to the scene's last transfer time. Adds to `seconds`.
+  /// Finds the singular times of all kinds up to the scene's last transfer time. Adds the time
+  /// spent to `seconds`.
   TransferPoints(const Scene& scene, const ProgressCallback& progress, TransferSeconds& seconds);
 
   const ComputedProblem& problem() const noexcept { return problem_; }
-  /// That of the Cartesian jets: of the scene's order, but where polynomials in other coordinates
-  /// answer, linear, for conditions and floors alone.
+  /// The problem of the Cartesian jets. It has the scene's order; but if polynomials in other
+  /// coordinates answer, it is linear and serves for conditions and floors alone.
   const ComputedProblem& jet_problem() const noexcept {
     return linear_problem_ ? *linear_problem_ : problem_;
   }
@@ -44,22 +46,22 @@ class TransferPoints {
   /// The coordinates of the polynomials that answer; not automatic.
   const ChosenCoordinates& coordinates() const noexcept { return coordinates_; }
 
-  /// About the chief, beyond the scene's last transfer time.
+  /// The flow about the chief, to beyond the scene's last transfer time.
   const LinearFlow& linear_flow() const noexcept { return *flow_; }
 
   bool is_near_singular(double time) const;
 
-  /// The scene's kind, or the best one for these transfers, with hysteresis along the calls.
+  /// The scene's kind, or the best one for these transfers, with hysteresis from call to call.
   ChosenKind choose_kind(double time, const FlowJet<double>& jet,
                          const std::vector<RelativeTransfer>& transfers);
   /// The answers of all orders for one transfer, proved by flying, with the refinement if it is
   /// needed.
   TransferPoint answer(const ChosenKind& chosen, const FlowJet<double>& jet,
                        const RelativeTransfer& ends);
-  /// Fills what the deputy does after its arrival, see relative_drift.
+  /// Adds the drift of the deputy after its arrival, see relative_drift.
   void add_drift(const RelativeTransfer& ends, TransferPoint& point, bool finds_holding);
-  /// The flow in the scene's coordinates, where they are not Cartesian; null where they are. Times
-  /// that move on cost least.
+  /// The flow in the scene's coordinates, or null if these are Cartesian. Successive times that
+  /// increase cost least.
   const DeputyFlow* charted_flow(double time);
   /// Makes the next choice of a kind independent of earlier ones.
   void forget_last_kind() { choice_ = {}; }
@@ -74,22 +76,24 @@ class TransferPoints {
     double scaled = 0;
     FlowJet<double> jet;
     GeneratingFunctionKind kind;
-    std::vector<double> w;  ///< the variables of the kind
+    std::vector<double> w;  ///< variables of the kind
     HamiltonJacobiTerms terms;
   };
 
-  /// How fast each kind's polynomials decay: with B the block that the kind inverts and d the
-  /// linear answer, |B(0)^-1 (B(d) - B(0))|, the share by which the inverted block changes over the
-  /// transfer, largest over the transfers. (The condition of B alone is no guide: on the paper's
-  /// orbit kinds with a condition of 3 miss by metres where F1, with 60, misses by micrometres.)
+  /// How fast each kind's polynomials decay. With B the block that the kind inverts and d the
+  /// linear answer, it is |B(0)^-1 (B(d) - B(0))|, the relative change of the block over the
+  /// transfer; the largest value over the transfers. (The condition of B alone is no guide: on the
+  /// paper's orbit kinds with a condition of 3 miss by metres where F1, with 60, misses by
+  /// micrometres.)
   std::vector<double> expansion_parameters(const FlowJet<double>& jet,
                                            const std::vector<RelativeTransfer>& transfers,
                                            double time) const;
   void find_singular_times(const ProgressCallback& progress);
   std::optional<double> singular_distance(double time) const;
-  /// The chief flown to a time; the last one is kept, for several deputies and the chief's error.
+  /// The chief flown to a time; the last state is kept, because several deputies and the chief's
+  /// error need it.
   const std::vector<double>& flown_chief(double time);
-  /// Whether the best answer is as the scene allows.
+  /// Judges whether the scene allows the best answer.
   void judge_limits(const RelativeTransfer& ends, TransferPoint& point);
   void measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
                         const std::vector<double>& w, TransferPoint& point);
@@ -105,9 +109,10 @@ class TransferPoints {
   double chief_time_ = 0;
   std::vector<double> flown_chief_;  ///< at the time of the last flight
   ChosenCoordinates coordinates_;
-  std::optional<DeputyFlowPropagation> propagation_;  ///< of the flows in other coordinates
-  double propagated_ = 0;                             ///< its time
-  std::unique_ptr<DeputyFlow> charted_flow_;          ///< at that time
+  /// Propagation of the flows in other coordinates.
+  std::optional<DeputyFlowPropagation> propagation_;
+  double propagated_ = 0;                     ///< its present time
+  std::unique_ptr<DeputyFlow> charted_flow_;  ///< flow at that time
   std::vector<SingularTime> singular_times_;
   std::optional<LargestResidual> largest_residual_;
 };

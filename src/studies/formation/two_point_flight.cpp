@@ -39,7 +39,7 @@ TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess
   try {
     while (flight.flights < most_flights) {
       ++flight.flights;
-      // The place itself is flown to the precision of double.
+      // The final state is flown to the precision of double.
       flight.end = exact_flow(system, flight.start, duration);
       const Eigen::Vector3d missing = position - position_of(flight.end);
       flight.miss = missing.norm();

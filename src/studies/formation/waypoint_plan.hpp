@@ -7,9 +7,9 @@
 
 namespace hamjet {
 
-/// Transfers through the scene's waypoints, to its end at each of its transfer times behind the
-/// last of them: each leg from the linear flow's answer by Newton's method on flown trajectories,
-/// until it misses by no more than the scene's `refined_miss_m`.
+/// Transfers through the scene's waypoints to its end, at each of its transfer times after the last
+/// waypoint. The answer of the linear flow for each leg is corrected by Newton's method on flown
+/// trajectories, until the miss is at most the scene's `refined_miss_m`.
 WaypointTransfers waypoint_transfers(const Scene& scene, const ComputedProblem& problem,
                                      const LinearFlow& flow, const ProgressCallback& progress);
 

@@ -6,8 +6,8 @@
 
 namespace hamjet {
 
-/// Period of the nominal, canonical: that of the osculating Kepler ellipse at the start, or of the
-/// oscillator. None for an orbit that is not elliptic.
+/// Period of the nominal, in canonical units: that of the osculating Kepler ellipse at the start,
+/// or of the oscillator. No value for an orbit that is not elliptic.
 std::optional<double> nominal_period(const Scene& scene);
 
 }  // namespace hamjet

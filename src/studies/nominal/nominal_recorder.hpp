@@ -15,8 +15,8 @@
 
 namespace hamjet {
 
-/// Collects the nominal trajectory, from its start, its energy error along an integration and, if
-/// asked for, its lowest point.
+/// Collects the nominal trajectory from its start, its energy error along an integration and, if
+/// requested, its lowest point.
 class NominalRecorder {
  public:
   NominalRecorder(const ComputedProblem& problem, std::size_t dimension,
@@ -60,7 +60,7 @@ class NominalRecorder {
     keep_largest(result_.largest_terms, energy_.terms(state));
   }
 
-  /// Raises a maximum; NaN counts as infinite, for it must not be lost.
+  /// Raises a maximum; NaN counts as infinite, because it must not be lost.
   static void keep_largest(double& largest, double value) {
     largest = std::isnan(value) ? std::numeric_limits<double>::infinity()
                                 : std::max(largest, std::abs(value));

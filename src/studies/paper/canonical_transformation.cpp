@@ -64,7 +64,7 @@ class Run {
     result_.stored_interval = (result_.steps + most_stored_points - 1) / most_stored_points;
   }
 
-  /// Does the steps; `progress` is told their number so far.
+  /// Takes the steps; `progress` is called with their number so far.
   template <class Progress>
   CanonicalTransformationRun run(const Progress& progress) {
     try {
@@ -126,7 +126,8 @@ class Run {
     result_.trajectory.push_back(std::move(point));
   }
 
-  /// Takes the residual at the midpoint of the step in z, whose image under f_k is the one in Z.
+  /// Computes the residual at the midpoint of the step in z, whose image under f_k is the midpoint
+  /// in Z.
   void check_hamilton_jacobi(TransformedMidpoint<double>& transformed,
                              const Vector<double>& middle) {
     using Kind = DiscreteGeneratingFunctionKind;
@@ -157,7 +158,7 @@ class Run {
 
   const CanonicalTransformationStudy& study_;
   RecordedHamiltonian<double> original_;
-  RecordedHamiltonian<double> hamiltonian_;  ///< the H that K is made of
+  RecordedHamiltonian<double> hamiltonian_;  ///< the H from which K is made
   Vector<double> state_;
   double energy_ = 0;
   double transformed_energy_ = 0;
@@ -192,7 +193,7 @@ CanonicalTransformationResult run_study(const CanonicalTransformationStudy& stud
   for (const double step : study.steps) total += step_count(study, step);
   double before = 0;
   for (const double step : study.steps) {
-    constexpr long interval = 256;  // steps between two reports
+    constexpr long interval = 256;  // number of steps between two reports
     const std::string task = fmt::format("step {:g}", step);
     result.runs.push_back(Run(study, system, step).run([&](long k) {
       if (progress && k % interval == 0) {

@@ -17,8 +17,8 @@
 namespace hamjet {
 namespace {
 
-/// The zero of StepCondition along the exact flow near a stop, by the secant method from where the
-/// stop itself expects it.
+/// The zero of StepCondition along the exact flow near a stop, by the secant method, started where
+/// the stop itself predicts it.
 std::optional<double> predicted_time(const EnergyConservationStudy& study,
                                      const DynamicalSystem& system,
                                      const EnergyConservingStop& stop, double last_step) {
@@ -29,7 +29,7 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   }
   StepCondition<double> condition(system, study.method);
   try {
-    // One flow to the stop; the secant method looks at its neighbourhood only.
+    // One flow leads to the stop; the secant method evaluates only its neighbourhood.
     const std::vector<double> at_stop = exact_flow(system, study.nominal, stop.time);
     const auto value = [&](double time) {
       return condition(exact_flow(system, at_stop, time - stop.time));
@@ -53,14 +53,14 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   return std::nullopt;
 }
 
-/// Whether a stop comes from the method's step equation, not from a start or a place that the scene
-/// should not have.
+/// Whether a stop is caused by the method's step equation, and not by a start or place that the
+/// scene should not have.
 bool is_of_the_method(const EnergyConservingStop& stop) {
   return stop.cause != EnergyConservingStopCause::not_finite &&
          stop.cause != EnergyConservingStopCause::no_midpoint;
 }
 
-/// Runs the energy-conserving method and keeps what the report needs.
+/// Runs the energy-conserving method and keeps the data that the report needs.
 class EnergyConservingTrajectory {
  public:
   EnergyConservingTrajectory(const DynamicalSystem& system, EnergyConservationResult& result,

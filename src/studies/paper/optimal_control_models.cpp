@@ -12,7 +12,7 @@
 namespace hamjet {
 namespace {
 
-/// What the end conditions fix, for a model with this number of states.
+/// The components that the end conditions fix, for a model with this number of states.
 template <std::size_t States>
 std::array<std::optional<double>, States> end_of(const OptimalControlStudy& study) {
   std::array<std::optional<double>, States> end;

@@ -38,7 +38,7 @@ void require_size_of_work(const OptimalControlStudy& study) {
   }
 }
 
-/// The error relative to `exact`; absolute where that is 0.
+/// The error relative to `exact`; absolute if that is 0.
 double relative_error(double value, double exact) {
   return std::abs(value - exact) / (exact != 0 ? std::abs(exact) : 1);
 }
@@ -99,9 +99,9 @@ class StepNumber {
     return sum;
   }
 
-  /// Compares both routes, each by its own equations, from a costate one per cent off that of the
-  /// solution. Where the solutions form a family, both are asked for the member with the solution's
-  /// costate along the family.
+  /// Compares both routes, each by its own equations, starting from a costate that differs by one
+  /// per cent from that of the solution. If the solutions form a family, both routes are asked for
+  /// the member with the solution's costate along the family.
   RouteComparison compare_routes(const ShootingSolution& solution) {
     constexpr double displacement = 1.01;
     const Eigen::VectorXd& costate = solution.trajectory.costates.front();
@@ -133,7 +133,7 @@ class StepNumber {
   ShootingSettings shooting_;
 };
 
-/// The fit through the finest points whose error is governed by the leading term.
+/// The fit through the finest points at which the leading term dominates the error.
 std::optional<ControlConvergenceFit> fit_order(const OptimalControlResult& result) {
   constexpr double rounding_floor = 1e-11;  // well above the round-off of a cost over many steps
   constexpr double largest_error = 1e-2;

@@ -22,7 +22,7 @@ ChiefOrbit state(const SixNumbers<double>& z, double J2 = 1e-3) {
   return orbit;
 }
 
-/// The same orbit with its lengths in another unit.
+/// The same orbit with lengths in another unit.
 ChiefOrbit in_unit(ChiefOrbit orbit, double length) {
   orbit.field.radius *= length;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,8 +42,9 @@ ChiefOrbit high_zonals() {
 struct Case {
   const char* name;
   ChiefOrbit orbit;
-  double time;                    ///< canonical
-  const char* refused = nullptr;  ///< a word of the reason; null: it must be answered
+  double time;  ///< in canonical units
+  const char* refused =
+      nullptr;  ///< a word of the reason for the refusal; null if the case must be answered
 };
 
 std::vector<Case> cases() {
@@ -105,7 +106,7 @@ SixNumbers<double> flown(const FlowBoxCase& orbit, const SixNumbers<double>& sta
   return end;
 }
 
-/// The largest of the derivatives of the final positions, with velocities in units of the chief's.
+/// The largest derivative of the final positions, with velocities in units of the chief's.
 double growth(const FlowBoxCase& orbit) {
   FlowProblem<double> problem{zonal_gravity(orbit.field),
                               SeriesSpace::create(6, 1),
@@ -147,7 +148,7 @@ std::vector<StabilityCase> flow_box_cases() {
 
 MeasuredError flow_box_error(const FlowBoxCase& subject) {
   constexpr int order = 2;
-  constexpr double size = 1e-7;  // of the deputies' distances and speeds, in the chief's
+  constexpr double size = 1e-7;  // of the deputies' distances and speeds, relative to the chief's
   const SixNumbers<double>& start = subject.start;
   GaussSettings settings;
   settings.tolerance = 1e-13;
@@ -159,9 +160,9 @@ MeasuredError flow_box_error(const FlowBoxCase& subject) {
   MeasuredError result;
   result.quantity = fmt::format("deputies through {} sections{}", name_of(section),
                                 section == ChartName::nodal ? "" : " in place of nodal ones");
-  // A start that is rounded by 2^-53 moves the end by as much times the growth. Flights and
-  // sections round some tens of times, and the flights' tolerance is 90 roundings: measured are
-  // up to 100 of them, and 340 from apogee at e = 0.9.
+  // Rounding a start by 2^-53 moves the end by as much, times the growth. Flights and sections
+  // round some tens of times, and the flights' tolerance is 90 roundings. Up to 100 roundings were
+  // measured, and 340 from apogee at e = 0.9.
   result.tolerance = 2000 * 0x1p-53 * (growth(subject) + r);
   std::mt19937_64 generator(11);
   std::normal_distribution<double> normal;
@@ -176,7 +177,7 @@ MeasuredError flow_box_error(const FlowBoxCase& subject) {
     const SixNumbers<double> predicted = flow->predict(deviation, order).deviation;
     for (std::size_t i = 0; i < 3; ++i) {
       const double error = std::abs(flow->chief_end()[i] + predicted[i] - end[i]);
-      // Not a number is larger than any.
+      // NaN counts as larger than any number.
       if (!(error <= result.error)) result.error = error;
     }
   }

@@ -6,15 +6,15 @@
 
 namespace hamjet {
 
-/// Orbits at the edges of the charts of flow boxes, as cases of a stability suite, with what is
-/// right for each: deputies go where an independent integration flies them, to the rounding that
-/// the flow itself amplifies, or the orbit is refused with the reason.
+/// Orbits at the edges of the charts of flow boxes, as cases of a stability suite, each with its
+/// right outcome: either deputies arrive where an independent integration flies them, to the
+/// rounding that the flow amplifies, or the orbit is refused with a reason.
 std::vector<StabilityCase> flow_box_cases();
 
-/// Predicts four deputies of a case through its flow box, so near the chief that what the missing
-/// degrees would add is rounding, and flies them by an explicit method, which shares no code with
-/// flow boxes: their largest distance and what is allowed, in which chart of sections. Throws as
-/// FlowBoxPropagation.
+/// Predicts four deputies of a case through its flow box. They are so near the chief that the
+/// missing degrees contribute less than rounding. An explicit method, which shares no code with
+/// flow boxes, flies them too. Returns the largest distance, the allowed one, and the chart of the
+/// sections. Throws as FlowBoxPropagation.
 MeasuredError flow_box_error(const FlowBoxCase& subject);
 
 }  // namespace hamjet

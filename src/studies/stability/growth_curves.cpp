@@ -17,15 +17,14 @@
 namespace hamjet {
 namespace {
 
-/// The jet at one of the times through which the fits go.
+/// The jet at one of the times that the fits use.
 struct Checkpoint {
   double time = 0;
   FlowJet<double> jet;
   double largest_energy_error = 0;  ///< up to this time
 };
 
-/// The times of the fits; where none are given, 1, 1/2, 1/4, ... of the duration, the smallest
-/// first.
+/// The times of the fits; if none are given, 1, 1/2, 1/4, ... of the duration, the smallest first.
 std::vector<double> wanted_times(const Scene& scene, const GrowthExpectation& expected) {
   if (!expected.times.empty()) return expected.times;
   std::vector<double> times;
@@ -56,7 +55,7 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
   return reached;
 }
 
-/// The true nominal at the checkpoints, of all components of the model.
+/// The true nominal at the checkpoints, with all components of the model.
 std::vector<Extended> true_states(const Scene& scene, const ComputedProblem& problem,
                                   const std::vector<Checkpoint>& points) {
   std::vector<double> times;
@@ -71,7 +70,7 @@ std::vector<Extended> true_states(const Scene& scene, const ComputedProblem& pro
   return states;
 }
 
-/// The problem with every component of the start that is not 0 this many ulps further from 0.
+/// The problem with every nonzero component of the start moved by this number of ulps away from 0.
 ComputedProblem moved_start(ComputedProblem problem, int ulps) {
   for (double& x : problem.nominal) {
     for (int i = 0; i < ulps && x != 0; ++i) x = std::nextafter(x, 2 * x);
@@ -79,9 +78,9 @@ ComputedProblem moved_start(ComputedProblem problem, int ulps) {
   return problem;
 }
 
-/// Largest distance of a component of the nominal from the true one, relative to the largest
-/// component, at each checkpoint. The states belong to the scene's start; `moved` is another start
-/// so near that the linear part of the jet gives the difference.
+/// For each checkpoint, the largest distance of a component of the nominal from the true one,
+/// relative to the largest component. The states belong to the scene's start; `moved` is another
+/// start, so near that the linear part of the jet gives the difference.
 std::vector<double> nominal_errors(const ComputedProblem& problem, const ComputedProblem& moved,
                                    const std::vector<Checkpoint>& points,
                                    const std::vector<Extended>& states) {
@@ -106,7 +105,7 @@ std::vector<double> nominal_errors(const ComputedProblem& problem, const Compute
 }
 
 /// Throws Error(usage) unless there is a checkpoint at each of the times. Steps that a tolerance
-/// chooses end elsewhere, for every start at other times.
+/// chooses end elsewhere, and for every start at other times.
 void require_times(const std::vector<double>& times, bool are_exact,
                    const std::vector<Checkpoint>& points) {
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -136,7 +135,7 @@ void add_squares(std::vector<double>& sums, const std::vector<double>& values) {
   for (std::size_t i = 0; i < values.size(); ++i) sums[i] += values[i] * values[i];
 }
 
-/// Fits the exponent through the values above the least one that means something.
+/// Fits the exponent through the values above the least significant one.
 void fit(GrowthCurve& curve, double least, double tolerance) {
   std::vector<ConvergencePoint> usable;
   for (const auto& [time, value] : curve.points) {
@@ -144,7 +143,7 @@ void fit(GrowthCurve& curve, double least, double tolerance) {
   }
   if (!std::all_of(curve.points.begin(), curve.points.end(),
                    [](const auto& point) { return std::isfinite(point.second); })) {
-    return;  // not as expected
+    return;  // the curve is not as expected
   }
   if (usable.size() >= 3) curve.exponent = fit_logarithms(usable, 0).slope;
   if (!curve.exponent) {
@@ -165,7 +164,7 @@ std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem
   constexpr double round_off = 4 * std::numeric_limits<double>::epsilon();
   require_sizes(expected, scene);
   const std::vector<double> times = wanted_times(scene, expected);
-  std::vector<Checkpoint> points;  // the scene's own start
+  std::vector<Checkpoint> points;  // with the scene's own start
   std::vector<Extended> states = expected.states;
   std::vector<double> squared_errors(times.size(), 0);
   std::vector<double> squared_energy_errors(times.size(), 0);

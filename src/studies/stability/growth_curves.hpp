@@ -8,10 +8,10 @@
 
 namespace hamjet {
 
-/// How error, energy error and coefficients of a scene's first integrator grow over its duration,
-/// beside what is expected. The nominal's error is against an integration in extended precision
-/// that starts from the same binary64 numbers; it is fitted where it exceeds round-off of a single
-/// addition. Throws as the integration does.
+/// The growth of error, energy error and coefficients of a scene's first integrator over its
+/// duration, with the expected growth. The nominal's error is relative to an integration in
+/// extended precision from the same binary64 numbers; it is fitted where it exceeds the round-off
+/// of a single addition. Throws as the integration does.
 std::vector<GrowthCurve> growth_curves(const Scene& scene, const ComputedProblem& problem,
                                        const GrowthExpectation& expected,
                                        const std::function<void(double)>& progress);

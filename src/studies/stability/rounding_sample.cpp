@@ -25,7 +25,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Half the distance of 1 to the next number.
+/// Half the distance from 1 to the next number.
 template <class Real>
 double half_ulp() {
   return std::ldexp(1.0, -std::numeric_limits<Real>::digits);
@@ -37,12 +37,12 @@ VectorXd state_vector(const std::vector<double>& numbers) {
   return Eigen::Map<const VectorXd>(numbers.data(), index(numbers.size()));
 }
 
-/// Where a run stands after some number of steps.
+/// The state of a run after some number of steps.
 struct RunPoint {
   double time = 0;
   long steps = 0;
   VectorXd state;
-  MatrixXd matrix;  ///< of first derivatives, a column for each variable
+  MatrixXd matrix;  ///< first derivatives, with a column for each variable
 };
 
 template <class Real>
@@ -71,7 +71,7 @@ std::vector<RunPoint> points_of_run(const Scene& scene, const ComputedProblem& p
   return points.take();
 }
 
-/// A step, or several, as a map of all components to second order.
+/// One or several steps, as a map of all components to second order.
 struct StepMap {
   MatrixXd linear;
   std::vector<MatrixXd> second;  ///< second derivatives of each component
@@ -83,8 +83,8 @@ struct FieldValue {
   MatrixXd gradient;
 };
 
-/// The method with steps of one length; Gauss with a tolerance in place of CVODE, whose steps
-/// depend on those before, and in place of very many steps.
+/// The settings of a single step: the method with steps of one length; or Gauss with a tolerance,
+/// instead of CVODE, whose steps depend on earlier steps, and instead of very many steps.
 IntegratorSettings settings_of_step(IntegratorSettings settings, const RunPoint& from,
                                     const RunPoint& to) {
   if (description_of(settings.method).is_multistep || to.steps - from.steps > 1) {
@@ -97,8 +97,8 @@ IntegratorSettings settings_of_step(IntegratorSettings settings, const RunPoint&
   return settings;
 }
 
-/// Whether a map ends where the run does: implicit equations of a step that is far too long have
-/// several solutions, and which one is found depends on the steps before.
+/// Whether a map ends where the run does. The implicit equations of a step that is far too long
+/// have several solutions, and which one is found depends on earlier steps.
 bool meets(const VectorXd& end, const RunPoint& from, const RunPoint& to) {
   const Eigen::Index n = end.size() / 2;
   const auto is_near = [](const auto& a, const auto& b, const auto& other) {
@@ -120,8 +120,8 @@ class LocalJets {
     std::iota(variables_.begin(), variables_.end(), std::size_t{0});
   }
 
-  /// A step's map of second order, or of first order where the run's own step must be taken from
-  /// its matrices; empty where neither can be had.
+  /// The map of a step to second order, or to first order if the run's own step must be derived
+  /// from its matrices; no value if neither is possible.
   std::optional<StepMap> step_map(const IntegratorSettings& settings, const RunPoint& from,
                                   const RunPoint& to, const ComputedProblem& problem) const {
     IntegrationStatistics statistics;
@@ -180,7 +180,7 @@ class LocalJets {
   std::vector<std::size_t> variables_;
 };
 
-/// Sizes that a rounding may change: the magnitudes; for numbers below the normal ones the distance
+/// The sizes to which rounding is relative: the magnitudes, or for denormal numbers the distance
 /// between two of them.
 template <class Magnitudes>
 auto rounding_of(const Magnitudes& magnitudes, double unit) {
@@ -193,7 +193,7 @@ auto rounding_of(const Magnitudes& magnitudes, double unit) {
 
 }  // namespace
 
-/// One member of the sample on its way: by how much it deviates from the run.
+/// One member of the sample: its deviation from the run so far.
 class RoundingSample::Deviations {
  public:
   Deviations(VectorXd state, Eigen::Index columns, std::mt19937_64& generator)
@@ -214,7 +214,7 @@ class RoundingSample::Deviations {
   /// A step from M to `next`, which adds `change` to the state.
   void advance(const StepMap& map, const MatrixXd& matrix, const MatrixXd& next,
                const VectorXd& change, double unit) {
-    MatrixXd bent(state_.size(), state_.size());  // the change of the step's matrix
+    MatrixXd bent(state_.size(), state_.size());  // change of the step's matrix by the deviation
     for (Eigen::Index i = 0; i < state_.size(); ++i) {
       bent.row(i) = (map.second[static_cast<std::size_t>(i)] * state_).transpose();
     }

@@ -13,17 +13,17 @@
 namespace hamjet {
 namespace {
 
-/// Carries what the caller's progress function throws past the errors of the case.
+/// Carries the exception of the caller's progress function past the error handling of the case.
 struct Stopped {
   std::exception_ptr cause;
 };
 
-/// What a case turned out to be, before it is compared with what was expected.
+/// The finding about a case, before it is compared with the expectation.
 struct Finding {
   CaseOutcome outcome = CaseOutcome::wrong;
   int exit_code = 0;
   std::string text;
-  std::vector<std::string> failed_checks = {};  ///< "name: what failed" each
+  std::vector<std::string> failed_checks = {};  ///< each as "name: what failed"
 };
 
 Finding refusal(const Error& error) {
@@ -54,7 +54,7 @@ void describe_run(const RunResult& run, StabilityResult& result) {
   if (!run.kinds.empty()) result.condition = run.kinds.front().condition;
 }
 
-/// The first measured error or curve that is not as it should be, in words.
+/// The first measured error or curve that exceeds its limit, in words.
 std::string first_excess(const StabilityResult& result) {
   if (result.error && !(result.error->ratio() <= 1)) {
     return fmt::format("{}: error {:.3g} exceeds {:.3g} (tolerance {:.3g} + {:g} x floor {:.3g})",
@@ -70,7 +70,7 @@ std::string first_excess(const StabilityResult& result) {
   return "";
 }
 
-/// Runs what can be run and fills in the measurements.
+/// Runs all parts that can be run and fills in the measurements.
 Finding investigate(const StabilityCase& subject, const ProgressCallback& progress,
                     StabilityResult& result) {
   if (const Error* error = std::get_if<Error>(&subject.scene)) return refusal(*error);
@@ -97,7 +97,7 @@ Finding investigate(const StabilityCase& subject, const ProgressCallback& progre
     result.growth = growth_curves(scene, propagation.problem, *subject.expected.growth,
                                   [&](double done) { progress("growth", done); });
   }
-  // A mark excuses no number that the case gives a reference for.
+  // A mark does not excuse an error in a number for which the case has a reference.
   const std::string excess = first_excess(result);
   if (!excess.empty()) return {CaseOutcome::wrong, 0, excess};
   if (!run.failed_checks.empty()) {

@@ -12,7 +12,7 @@
 namespace hamjet {
 namespace {
 
-/// The jet of all components of the model; those that vanish identically are zero series.
+/// The jet of all components of the model; components that vanish identically are zero series.
 FlowJet<Extended> full_jet(const PropagationResult& result) {
   FlowJet<Extended> full(result.scene.nominal.size(), Series<Extended>(result.problem.space));
   const FlowJet<Extended>& jet = result.runs.front().jet;
@@ -24,7 +24,7 @@ double distance(const Extended& value, const Extended& reference) {
   return static_cast<double>(Extended(abs(value - reference)));
 }
 
-/// Keeps the error with the larger ratio to what is allowed; of equal ratios the larger error.
+/// Keeps the error with the larger ratio to the allowed one; for equal ratios, the larger error.
 void keep_worse(std::optional<MeasuredError>& worst, const MeasuredError& error) {
   const bool is_worse = !worst || error.ratio() > worst->ratio() ||
                         (error.ratio() == worst->ratio() && error.error > worst->error);
@@ -55,7 +55,7 @@ MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJe
     for (std::size_t k = 0; k < variables.size(); ++k) {
       const std::size_t entry = i * dimension + variables[k];
       const Extended& value = jet[i][jet[i].space().linear_index(k)];
-      // Only symmetry makes an entry exactly 0, and symmetry must be kept exactly.
+      // An entry is exactly 0 only by symmetry, and symmetry must be kept exactly.
       const bool is_zero = expected.matrix[entry] == 0;
       keep_worse(worst, {"matrix", distance(value, expected.matrix[entry]),
                          is_zero ? 0 : floor.matrix[entry], is_zero ? 0 : expected.tolerance});
@@ -64,7 +64,7 @@ MeasuredError worst_of_matrix(const StabilityExpectation& expected, const FlowJe
   return *worst;
 }
 
-/// Tells the user's progress how far the rounding sample is.
+/// Reports the progress of the rounding sample to the user.
 std::function<void(double)> sampling(const ProgressCallback& progress) {
   return [&progress](double done) {
     if (progress) progress("rounding", done);
@@ -90,7 +90,7 @@ void add_reference_errors(const StabilityExpectation& expected, const Propagatio
   }
 }
 
-/// Runs a scene; a failure of its run is thrown, as a failure of the case.
+/// Runs a scene; a failure of its run is thrown as a failure of the case.
 PropagationResult propagate_well(const Scene& scene, const ProgressCallback& progress) {
   PropagationResult result = propagate(scene, progress);
   if (!result.runs.front().failure.empty()) {

@@ -7,9 +7,10 @@
 
 namespace hamjet {
 
-/// Errors of a case's first run against what the case expects, one a quantity: the worst component
-/// of the state, of the matrix, of each degree of the twin's jet, and so on. Throws Error(usage) if
-/// the expectation does not fit the scene, and as `propagate` does for what has to be run besides.
+/// Errors of a case's first run relative to the case's expectations, one for each quantity: the
+/// worst component of the state, of the matrix, of each degree of the twin's jet, and so on. Throws
+/// Error(usage) if the expectation does not fit the scene, and as `propagate` for further runs that
+/// are needed.
 std::vector<MeasuredError> measure_errors(const StabilityExpectation& expected,
                                           const PropagationResult& result,
                                           const ProgressCallback& progress);

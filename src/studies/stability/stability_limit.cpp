@@ -16,7 +16,7 @@
 namespace hamjet {
 namespace {
 
-/// Two eigenvalues that meet on the unit circle are only known to the square root of round-off.
+/// Two eigenvalues that meet on the unit circle are known only to the square root of round-off.
 constexpr double rounding_of_eigenvalues = 1e-6;
 constexpr double tolerated_growth = 0.01;
 
@@ -46,7 +46,7 @@ class StabilityLimit {
 
   double frequency() const { return frequency_; }
 
-  /// Growth of an amplitude in one step, relative to that of the flow; infinite where the step's
+  /// Growth of an amplitude in one step, relative to that of the flow; infinite if the step's
   /// matrix is not finite.
   double growth(double step) const {
     const Matrix<double> matrix = scaled(steps_.matrix(step));
@@ -65,7 +65,7 @@ class StabilityLimit {
   }
 
   /// The stable step at the first edge below an unstable one; 0 if there is none. Compositions have
-  /// several ranges of stable steps, of which only the first is of use.
+  /// several ranges of stable steps, of which only the first is useful.
   double first_edge(double unstable) const {
     constexpr int parts = 256;
     double stable = 0;
@@ -77,7 +77,7 @@ class StabilityLimit {
       }
       stable = step;
     }
-    if (stable == 0) {  // far below
+    if (stable == 0) {  // the stable steps are far below
       for (int halvings = 0; halvings < 60 && stable == 0; ++halvings) {
         if (is_stable(unstable / 2)) stable = unstable / 2;
         if (stable == 0) unstable /= 2;
@@ -92,8 +92,8 @@ class StabilityLimit {
   }
 
  private:
-  /// Momenta in units in which each degree of freedom turns like a unit oscillator, so that a stiff
-  /// spring does not spoil the eigenvalues.
+  /// Scales momenta so that each degree of freedom behaves like a unit oscillator; otherwise a
+  /// stiff spring would spoil the eigenvalues.
   void scale_momenta(const Matrix<double>& field) {
     const Eigen::Index n = field.rows() / 2;
     units_ = Vector<double>::Ones(2 * n);

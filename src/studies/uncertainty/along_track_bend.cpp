@@ -10,7 +10,7 @@ namespace hamjet {
 
 bool AlongTrackBend::is_large_beside(double length) const {
   constexpr double small = 0.1;
-  // What is no number is warned of.
+  // The comparison is written so that NaN gives a warning.
   return !(bend <= small * std::hypot(radial, length));
 }
 

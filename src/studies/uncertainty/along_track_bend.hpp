@@ -9,30 +9,31 @@
 
 namespace hamjet {
 
-/// A Gaussian in positions spreads along a straight line, and the orbit bends away from that: by
+/// A Gaussian in positions spreads along a straight line, and the orbit bends away from this line
+/// by
 ///
 ///   T^2 / (2 r)
 ///
-/// at a deviation T along the track, r from the centre.
+/// at a deviation T along the track, where r is the distance from the centre.
 struct AlongTrackBend {
-  std::array<double, 2> deviations{};  ///< standard deviations along the track, of both spacecraft
-  /// At the deviations that are asked about, with their standard deviations, of both together.
+  std::array<double, 2> deviations{};  ///< standard deviations along the track, for both spacecraft
+  /// The bend at the given deviations plus their standard deviations, for both spacecraft together.
   double bend = 0;
-  double radial = 0;  ///< standard deviation along R where that along T is known, of both together
+  double radial = 0;  ///< standard deviation along R if that along T is known, for both together
 
-  /// Whether the bend is not small beside what is uncertain across the track and a length that
-  /// matters: by more than a tenth of both.
+  /// Whether the bend is not small compared to the uncertainty across the track and to a given
+  /// length: it is more than a tenth of both.
   bool is_large_beside(double length) const;
 };
 
-/// Of both spacecraft at the epoch, about so many standard normal numbers.
+/// The bend for both spacecraft at the epoch, about this vector of standard normal numbers.
 AlongTrackBend along_track_bend(const EncounterProblem& problem, const EncounterDeviation& about);
 
-/// The shortest deviation whose linear path meets at a closest approach of the means: the
+/// The shortest deviation whose linear paths meet at a closest approach of the means: the
 /// components of the relative position across the relative velocity vanish.
 EncounterDeviation deviation_of_meeting(const LinearRelativeState& at_approach);
 
-/// A sentence for people; none where the bend is small beside the length.
+/// A warning sentence for people; no value if the bend is small compared to the length.
 std::optional<std::string> along_track_warning(const AlongTrackBend& bend, double length,
                                                const std::array<std::string, 2>& names,
                                                const std::string& what, const MetricUnits& units);

@@ -21,9 +21,10 @@
 namespace hamjet {
 namespace {
 
-/// Deviations that are flown to each closest approach.
+/// The number of deviations that are flown to each closest approach.
 constexpr std::size_t flown_deviations = 64;
-/// The least separation is told for these shares of the samples, of which the smallest has ten.
+/// The fractions of the samples for which a least separation is reported; the smallest contains ten
+/// samples.
 constexpr std::array<double, 4> separation_shares = {0.001, 0.01, 0.05, 0.5};
 constexpr long separation_samples = 10000;
 constexpr long flown_separation_samples = 32;
@@ -47,8 +48,8 @@ EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& wat
   return problem;
 }
 
-/// Both spacecraft with the deviations of standard normal numbers, flown with the full equations to
-/// a time of each pair's own: their relative states.
+/// The relative states of pairs that deviate from the means by standard normal numbers; each pair
+/// is flown with the full equations to a time of its own.
 std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
                                             const std::vector<EncounterDeviation>& deviations,
                                             const std::vector<double>& times) {
@@ -71,7 +72,7 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
   return result;
 }
 
-/// collision_probability, whose refusals name the key of the scene that they come from.
+/// collision_probability, whose refusals name the key of the scene that causes them.
 CollisionProbability probability_of(const EncounterProblem& problem,
                                     const CollisionSettings& settings,
                                     const CollisionWatch& watch) {
@@ -109,7 +110,7 @@ double norm_of_slice(const Series<double>& series) {
   return std::sqrt(square);
 }
 
-/// By flights to the times that the polynomials tell.
+/// Compares with flights to the times that the polynomials give.
 void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::uint64_t seed,
          const MetricUnits& units, UncertainApproach& result) {
   const std::vector<EncounterDeviation> deviations = random_deviations(seed, flown_deviations);
@@ -128,7 +129,7 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
   for (std::size_t k = 0; k < flown_deviations; ++k) {
     times.push_back(approach.time + values[6 * flown_deviations + k]);
   }
-  // Where the polynomials say nothing they tell times that no flight would end at.
+  // Where the polynomials are meaningless, they give times that no flight would reach.
   const double span = problem.to - problem.from;
   for (const double time : times) {
     if (!(time > problem.from - span && time < problem.to + span)) return;
@@ -143,7 +144,7 @@ void fly(const EncounterProblem& problem, const ClosestApproach& approach, std::
       rate += flown[k][i] * flown[k][i + 3];
       speed += std::pow(flown[k][i + 3], 2);
     }
-    // A flight that ended in the centre is none that polynomials are right of.
+    // For a flight that ends in the centre, polynomials cannot be right.
     if (!std::isfinite(square + rate) || !(speed > 0)) return;
     result.position_error_m = std::max(result.position_error_m, std::sqrt(square) * units.length_m);
     result.time_error_s = std::max(result.time_error_s, std::abs(rate) / speed * units.time_s);
@@ -202,7 +203,7 @@ UncertainApproach uncertain_approach(const EncounterProblem& problem,
   return result;
 }
 
-/// In metres and seconds.
+/// Converts to metres and seconds.
 CollisionProbability in_si(CollisionProbability probability, const MetricUnits& units) {
   for (double& time : probability.times) time *= units.time_s;
   probability.path_error *= units.length_m;
@@ -212,7 +213,7 @@ CollisionProbability in_si(CollisionProbability probability, const MetricUnits& 
   return probability;
 }
 
-/// What is said of the whole passage where an edge of the scene's own window cuts it.
+/// The warning about the whole passage, if an edge of the scene's own window cuts it.
 std::string cut_warning(const CollisionResult& result) {
   return fmt::format(
       "an edge of the window {:.9g} s to {:.9g} s cuts a passage: of the whole of it, {:.9g} s to "
@@ -244,7 +245,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   result.order = scene.order;
   const MetricUnits units = metric_units(scene);
   EncounterProblem problem = encounter_problem(scene, result.watch, units);
-  // Before a burn that ends at the start the flight is another one.
+  // Before a burn that ends at the start, the trajectory is a different one.
   const std::optional<EncounterProblem> whole =
       scene.uncertainty->burn && problem.from == 0 ? std::nullopt : with_whole_passages(problem);
   if (whole && !result.watch.has_window) {
@@ -279,8 +280,8 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
       least_separations(problem, settings, {separation_shares.begin(), separation_shares.end()},
                         flown_separation_samples);
   result.separations.scale(units.length_m);
-  // Series in twelve variables grow fast, and the third order is beyond what a deviation of the
-  // time needs.
+  // Series in twelve variables grow fast, and a deviation of the time does not need the third
+  // order.
   constexpr int highest_order = 3;
   EncounterProblem lower = whole.value_or(problem);
   EncounterProblem first_order = lower;

@@ -13,25 +13,27 @@
 
 namespace hamjet {
 
-/// One of both at a closest approach.
+/// One of both spacecraft at a closest approach.
 struct ApproachingSpacecraft {
-  std::vector<double> state;  ///< the mean's, canonical
-  /// Of the state at that time to first order in the deviations, along the spacecraft's own R, T,
-  /// N with inertial velocities: metres and metres a second.
+  std::vector<double> state;  ///< state of the mean, in canonical units
+  /// Covariance of the state at that time, to first order in the deviations, along the spacecraft's
+  /// own R, T, N with inertial velocities; in metres and metres per second.
   Covariance covariance;
 };
 
 /// A minimum of the distance between the means of chief and deputy.
 struct UncertainApproach {
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   double time_s = 0;
-  double distance_m = 0;  ///< of the means
+  double distance_m = 0;  ///< distance of the means
   double speed_m_s = 0;
-  double time_deviation_s = 0;      ///< standard deviation of its time, linear
-  double distance_deviation_m = 0;  ///< of the distance; of the position then, where they meet
-  /// Random deviations were flown to the times that the polynomials tell: how far the relative
-  /// positions were from those told, and the times from the minima, at most. None were where the
-  /// polynomials tell times far outside the window.
+  double time_deviation_s = 0;  ///< standard deviation of its time, linear
+  double distance_deviation_m =
+      0;  ///< standard deviation of the distance; if the means meet, of the position
+  /// Random deviations were flown to the times that the polynomials give. The two members below are
+  /// the largest differences of the relative positions from the predicted ones, and of the times
+  /// from the minima. The number of flights is 0 if the polynomials give times far outside the
+  /// window.
   int flights = 0;
   double position_error_m = 0;
   double time_error_s = 0;
@@ -40,35 +42,37 @@ struct UncertainApproach {
     return flights > 0 && position_error_m < 0.1 * (distance_m > radius_m ? distance_m : radius_m);
   }
   std::optional<ShortEncounter> plane;              ///< lengths in metres, times in seconds
-  std::string refusal;                              ///< why there is no plane
+  std::string refusal;                              ///< reason why there is no plane
   std::array<ApproachingSpacecraft, 2> spacecraft;  ///< the chief and the deputy
 };
 
-/// The probability that chief and deputy come near each other, from their states at the start.
+/// The probability that chief and deputy come near each other, from the uncertainty of their states
+/// at the start.
 struct CollisionResult {
   CollisionWatch watch;
-  double from_s = 0;  ///< the window that was looked at
+  double from_s = 0;  ///< the window that was examined
   double to_s = 0;
-  /// It is wider than from the start to the end of a scene that names no window: it holds the whole
-  /// of a passage that these cut.
+  /// The window is wider than the scene's start to end, in a scene without a window, because it
+  /// contains the whole of a passage that these cut.
   bool is_widened = false;
   CollisionProbability probability;  ///< times in seconds, lengths in metres
-  /// Where an edge of a window that the scene names cuts a passage: of the window that holds the
-  /// whole of it.
+  /// If an edge of the scene's window cuts a passage: the probability for the window that contains
+  /// the whole passage.
   std::optional<CollisionProbability> of_whole_passage;
   double whole_from_s = 0;
   double whole_to_s = 0;
-  std::vector<std::string> warnings;  ///< why a number is not to be trusted, or is not of the whole
+  /// Reasons why a number is not reliable, or does not cover the whole passage.
+  std::vector<std::string> warnings;
   std::vector<UncertainApproach> approaches;
   LeastSeparations separations;  ///< in metres
   int order = 0;
   double seconds = 0;
 };
 
-/// Of the whole passages: what an encounter as such has.
+/// The probability for whole passages, which describes the encounter as such.
 const CollisionProbability& probability_of_passage(const CollisionResult& result);
 
-/// The approach at which the means are nearest; null where they have none in the window.
+/// The approach at which the means are nearest; null if they have none in the window.
 const UncertainApproach* nearest_approach(const CollisionResult& result);
 
 /// The study of table `[uncertainty.collision]`. Throws as collision_probability and

@@ -5,7 +5,7 @@
 namespace hamjet {
 namespace {
 
-/// The standard deviation of the mean of f(z) over a sample.
+/// The standard error of the mean of f(z) over a sample.
 template <class Function>
 double scatter(const Vector<double>& z, const Function& f) {
   double sum = 0;

@@ -11,7 +11,7 @@ Vector<double> as_vector(const std::vector<double>& numbers) {
                                           static_cast<Eigen::Index>(numbers.size()));
 }
 
-/// A covariance along axes of the spacecraft's own orbit as one of canonical deviations.
+/// Converts a covariance along axes of the spacecraft's own orbit to one of canonical deviations.
 Covariance canonical_covariance(const Covariance& covariance, RelativeFrame frame,
                                 const Vector<double>& state, const MetricUnits& units) {
   const ChiefFrame own(std::span(state.data(), 6), units, frame);
@@ -51,7 +51,7 @@ UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState&
   for (std::size_t i = 0; i < 6; ++i) {
     craft.state[i] += start.mean[static_cast<Eigen::Index>(i)];
   }
-  // Of a sum of covariances the factor has more columns than its numbers have directions.
+  // The factor of a sum of covariances has more columns than there are directions.
   const Matrix<double> factor = start.covariance.rank() <= 6
                                     ? start.covariance.factor()
                                     : Cumulants(Vector<double>::Zero(6), start.covariance).axes();

@@ -13,21 +13,21 @@ namespace hamjet {
 struct InitialState {
   std::string name;
   Vector<double> mean;    ///< canonical deviation from the chief's nominal
-  Covariance covariance;  ///< of canonical deviations
+  Covariance covariance;  ///< covariance of canonical deviations
 };
 
-/// Those of the chief and of the deputy, as far as the scene has them, with the burn's errors in
-/// the one that it belongs to. Of a burn that ended early a share is done: the rest of its velocity
-/// change is missing, and its errors are as much smaller.
+/// The distributions of the chief and of the deputy, as far as the scene has them, with the errors
+/// of the burn in the one that it belongs to. If a burn ended early, only a fraction was done: the
+/// rest of its velocity change is missing, and its errors are smaller in proportion.
 std::vector<InitialState> initial_states(const Scene& scene, double burn_share = 1);
 
-/// A spacecraft relative to the chief in the frame of the scene's deputy, and known as well as
-/// that, without a burn.
+/// A spacecraft relative to the chief in the frame of the scene's deputy, with the uncertainty of
+/// that deputy, without a burn.
 InitialState initial_deputy(const Scene& scene, const RelativeState& start);
 
-/// An encounter in the scene's field and order, still without its spacecraft: the window and the
-/// radius canonical. The jets of both have a tolerance of their own, whatever integrates the
-/// scene's.
+/// An encounter in the scene's field and order, still without its spacecraft; the window and the
+/// radius are canonical. The jets of both spacecraft have a tolerance of their own, whatever
+/// integrates the scene's.
 EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius);
 
 /// One side of an encounter.

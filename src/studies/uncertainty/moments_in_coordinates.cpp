@@ -17,10 +17,11 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A flow box has in the place of the energy E, with which its coordinates would be canonical, the
-/// period's difference u = (E/E_chief)^(-3/2) - 1, whose derivative changes volumes: by that at the
-/// chief, the determinant of the coordinates' linear part, times (1 + u)^(5/3). The distribution's
-/// entropy grows by the mean of its logarithm, here to the fourth moment of u.
+/// A flow box has, instead of the energy E, with which its coordinates would be canonical, the
+/// difference of the period u = (E/E_chief)^(-3/2) - 1. This change of variable multiplies volumes
+/// by its value at the chief, the determinant of the coordinates' linear part, times (1 + u)^(5/3).
+/// The entropy of the distribution grows by the mean of the logarithm of this factor, which is
+/// computed here to the fourth moment of u.
 void told_of_period(std::vector<Cumulants>& all, std::size_t period_place,
                     const std::vector<Series<double>>& coordinates) {
   const auto place = static_cast<Eigen::Index>(period_place);
@@ -37,7 +38,7 @@ void told_of_period(std::vector<Cumulants>& all, std::size_t period_place,
   }
 }
 
-/// In one kind of coordinates; throws as DeputyFlowPropagation.
+/// The moments in one kind of coordinates. Throws as DeputyFlowPropagation.
 MomentsInCoordinates moments_in(JetCoordinates coordinates, const Scene& scene,
                                 const ComputedProblem& problem,
                                 const IntegratorSettings& integrator,
@@ -89,7 +90,7 @@ std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
   if (!is_moved) whole = in_standard_normals(map, start.covariance);
   for (int n = 1; n <= order; ++n) {
     if (is_moved) {
-      // A lower order leaves terms out before the mean is put in.
+      // A lower order drops terms before the mean is inserted.
       const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
       std::vector<Series<double>> lower;
       for (const Series<double>& component : map) lower.push_back(in_space(component, space));
@@ -118,7 +119,7 @@ double miss_of_mean(const DeputyFlow& flow, int order, const InitialState& start
                              ? mean.standard_deviations[i]
                              : 1e-3 * flown.segment<3>(i < 3 ? 0 : 3).norm();
     const double miss = std::abs(predicted[i] - flown[i]) / sigma;
-    // What is not a number compares with nothing.
+    // The comparison is written so that NaN counts as worst.
     worst = miss <= worst ? worst : std::isfinite(miss) ? miss : never;
     if (worst == never) break;
   }
@@ -140,7 +141,8 @@ std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordi
   told_of_start(moments, start);
   if (period_place) told_of_period(moments, *period_place, coordinates);
   if (noise) {
-    // From states at the end to coordinates there: both as linear maps of the start's deviations.
+    // The derivative of the coordinates at the end by the states there, from both as linear maps of
+    // the start's deviations.
     const Matrix<double> by_state =
         linear_part(coordinates) * Eigen::PartialPivLU<Matrix<double>>(linear_part(jet)).inverse();
     add_noise(moments, Cumulants(Vector<double>::Zero(6), *noise).mapped(by_state));
@@ -176,7 +178,7 @@ std::vector<MomentsInCoordinates> moments_in_coordinates(
     try {
       all.push_back(moments_in(coordinates, scene, problem, integrator, starts, jet, means, noise));
     } catch (const Error& error) {
-      // An orbit may lack some coordinates, and a method may not serve for some.
+      // An orbit may lack some coordinates, and a method may not support some.
       if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::scene) throw;
       all.emplace_back();
       all.back().coordinates = coordinates;

@@ -31,8 +31,9 @@ Covariance ProcessNoise::by_intervals(double time, int count) const {
   for (int k = 0; k <= count; ++k) {
     const double weight = k == 0 || k == count ? 1 : k % 2 == 1 ? 4 : 2;
     const double share = density_ * weight * std::abs(time) / (3.0 * count);
-    // Phi(t, s) = Phi(t) Phi(s)^-1, the inverse of a symplectic matrix being -J Phi^T J; its last
-    // columns, those of a change of the momenta, are [-B^T; A^T] of Phi = [[A, B], [C, D]].
+    // Phi(t, s) = Phi(t) Phi(s)^-1, where the inverse of a symplectic matrix is -J Phi^T J. Its
+    // last columns, which belong to changes of the momenta, are [-B^T; A^T] for Phi = [[A, B], [C,
+    // D]].
     const Matrix<double>& at_node = flows[static_cast<std::size_t>(k)];
     Matrix<double> kicks(6, 3);
     kicks << -at_node.topRightCorner(3, 3).transpose(), at_node.topLeftCorner(3, 3).transpose();
@@ -54,7 +55,7 @@ Covariance ProcessNoise::at(double time) const {
     const Matrix<double> change = next.matrix() - last.matrix();
     const Matrix<double> relative =
         s.cwiseInverse().asDiagonal() * change * s.cwiseInverse().asDiagonal();
-    // The largest entry does not show one that is no number.
+    // The largest entry alone would not show a NaN.
     if (relative.allFinite() && relative.cwiseAbs().maxCoeff() < agreement) return next;
     last = std::move(next);
   }

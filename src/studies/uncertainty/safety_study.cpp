@@ -16,13 +16,14 @@
 namespace hamjet {
 namespace {
 
-/// Samples of each pair that are flown with the full equations, and as many of those nearest to
-/// what is told.
+/// The number of samples of each pair that are flown with the full equations; as many of those
+/// nearest to the reported separation are flown too.
 constexpr long flown_samples = 16;
-/// Quantiles of the distribution of least separations that are kept beside the one that is told.
+/// The number of quantiles of the distribution of least separations that are kept beside the
+/// reported one.
 constexpr int quantiles = 50;
 
-/// Chief, deputy and further ones, with a share of the burn done.
+/// Chief, deputy and further deputies, with a fraction of the burn completed.
 std::vector<InitialState> formation(const Scene& scene, double burn_share) {
   std::vector<InitialState> all = initial_states(scene, burn_share);
   if (all[0].name != "chief") {
@@ -51,7 +52,7 @@ SafetyPair safety_of(const Scene& scene, const std::array<const InitialState*, 2
   pair.separations = least_separations(problem, settings, shares, flown_samples);
   pair.separations.scale(units.length_m);
   pair.mean_separation_m = flown_separation_of_means(problem) * units.length_m;
-  // The rarest cases that are told lie some three standard deviations along the track.
+  // The rarest cases that are reported lie some three standard deviations along the track.
   constexpr double rare = 3;
   AlongTrackBend bend = along_track_bend(problem, EncounterDeviation::Zero());
   bend.bend *= rare * rare;

@@ -15,15 +15,15 @@ namespace hamjet {
 struct SafetyPair {
   std::string first;  ///< "chief", "deputy", "deputy 2", ...
   std::string second;
-  /// How much of the burn is done; none for a pair that has no part in it.
+  /// The fraction of the burn that is completed; no value for a pair that the burn does not affect.
   std::optional<double> burn_share;
-  double mean_separation_m = 0;  ///< the least of the means
-  /// In metres: the first is of the share of cases that come nearer than the rest, further ones are
-  /// quantiles of the whole distribution.
+  double mean_separation_m = 0;  ///< least separation of the means
+  /// In metres. The first separation belongs to the fraction of cases that come nearer than the
+  /// rest; the others are quantiles of the whole distribution.
   LeastSeparations separations;
-  std::optional<KeepOutMargin> margin;  ///< of a pair with the chief; time in seconds
-  std::string refusal;                  ///< why the margin was not found
-  std::optional<std::string> warning;   ///< why its numbers are not to be trusted
+  std::optional<KeepOutMargin> margin;  ///< for a pair with the chief; time in seconds
+  std::string refusal;                  ///< reason why the margin was not found
+  std::optional<std::string> warning;   ///< reason why its numbers are not reliable
 };
 
 /// The passive safety of a formation.
@@ -36,7 +36,7 @@ struct SafetyResult {
   double seconds = 0;
 };
 
-/// The pair whose told separation is least.
+/// The pair whose reported separation is least.
 const SafetyPair& least_safe_pair(const SafetyResult& result);
 
 /// The study of table `[uncertainty.safety]`. Throws as least_separations.

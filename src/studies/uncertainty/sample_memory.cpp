@@ -12,9 +12,9 @@ namespace {
 
 /// Six numbers.
 constexpr double state_bytes = 6 * sizeof(double);
-/// What the moments of a sample take while they are made: eight copies of its state (2026-11-26).
+/// The memory that computing the moments of a sample takes: eight copies of its state (2026-11-26).
 constexpr double copies_for_moments = 8;
-/// A least separation, its copy in order, its place and its flight.
+/// A least separation, its sorted copy, its index and its flight.
 constexpr double separation_bytes = 4 * sizeof(double);
 constexpr double megabyte = 1e6;
 
@@ -24,7 +24,7 @@ double sample_memory(const Scene& scene) {
   if (!scene.uncertainty) return 0;
   const UncertaintySettings& settings = *scene.uncertainty;
   const double spacecraft = scene.deputy && settings.chief ? 2 : 1;
-  const double states = spacecraft == 2 ? 3 : 1;  // with the deputy less the chief
+  const double states = spacecraft == 2 ? 3 : 1;  // including the difference of deputy and chief
   const double kept = spacecraft + states * static_cast<double>(settings.times.size());
   const double flown = settings.samples < 2 ? 0
                                             : static_cast<double>(settings.samples) * state_bytes *

@@ -7,9 +7,9 @@
 
 namespace hamjet {
 
-/// Independent standard normal numbers, the same on every implementation of the standard library,
-/// whose own distributions differ: by pairs (G. E. P. Box and M. E. Muller, Annals of Mathematical
-/// Statistics 29 (1958) 610).
+/// Independent standard normal numbers in pairs (G. E. P. Box and M. E. Muller, Annals of
+/// Mathematical Statistics 29 (1958) 610). They are the same with every implementation of the
+/// standard library, whose own distributions differ.
 class StandardNormals {
  public:
   explicit StandardNormals(std::uint64_t seed) : generator_(seed) {}
@@ -27,7 +27,7 @@ class StandardNormals {
   }
 
  private:
-  /// In (0, 1), 2^53 numbers.
+  /// A uniform number in (0, 1), one of 2^53 values.
   double uniform() { return (static_cast<double>(generator_() >> 11) + 0.5) * 0x1p-53; }
 
   std::mt19937_64 generator_;

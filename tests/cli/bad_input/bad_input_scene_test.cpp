@@ -11,7 +11,7 @@ namespace {
 using std::string;
 
 struct SceneMistake {
-  int row;  ///< of the table
+  int row;  ///< row of the table
   string from;
   string to;
   std::vector<string> words;
@@ -119,7 +119,8 @@ TEST_F(BadScene, ZonalHarmonics) {
       scene);
 }
 
-// A scene that can be right, but hardly is: each command warns of it, and the results keep it.
+// A scene that is possible but hardly intended: each command warns, and the results keep the
+// warning.
 TEST_F(BadScene, ALikelySlipIsSaidAndKept) {
   write("slip.toml", changed(quick_scene(), "model = \"kepler\"",
                              "model = \"zonal-gravity\"\nradius_km = 6378\nJ2 = -1.08e-3"));
@@ -129,17 +130,17 @@ TEST_F(BadScene, ALikelySlipIsSaidAndKept) {
   ASSERT_EQ(warnings.size(), 1U);
   const string warning = warnings[0];
   EXPECT_EQ(warning.find("warning: slip.toml:6:6: system.J2: -0.00108 is that of"), 0U) << warning;
-  // Wrapped on the terminal.
+  // The text is wrapped on the terminal.
   const string line = "hamjet: " + warning;
   EXPECT_EQ(unwrapped(run.err), line);
   const CommandResult check = hamjet({"check", "slip.toml"});
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_EQ(unwrapped(check.err), line);
-  // Before the reason why there is no transfer in it.
+  // The warning comes before the reason why there is no transfer.
   const CommandResult transfer = hamjet({"transfer", "slip.toml"});
   EXPECT_EQ(transfer.exit_code, 3);
   EXPECT_EQ(unwrapped(transfer.err).find(line), 0U) << transfer.err;
-  // Of a scene without a slip there is no word.
+  // A scene without a mistake has no warning.
   succeed({"run", "quick.toml", "-o", "quick", "-q"});
   EXPECT_EQ(read_json(directory_ / "quick/summary.json")["warnings"], Json::array());
 }

@@ -26,7 +26,7 @@ TEST_F(Surroundings, OutputInPlaceOfTheScene) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__)
-// Row 52. One allocation fails after the other, of those that come once the libraries have started.
+// Row 52. One allocation after another fails, once the libraries have started.
 TEST_F(Surroundings, MemoryRunsOutAnywhere) {
   succeed({"run", "quick.toml", "-q", "-o", "right"});
   int refused = 0;
@@ -40,8 +40,8 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
     ASSERT_EQ(result.signal, 0) << result.err;
     EXPECT_EQ(result.out, "");
     if (result.exit_code == 0) {
-      // The last allocation is behind, or it was one that something else could do without, as some
-      // of the libraries' own at their start.
+      // The last allocation has passed, or the allocation was optional, as are some of the
+      // libraries' own at their start.
       if (refused > 0) ++passed;
       ASSERT_LT(number, 1'000'000) << "none was refused";
       EXPECT_EQ(content(directory_ / "out/quick/midpoint/jet.csv"),
@@ -55,7 +55,8 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
   EXPECT_GE(refused, 10);
 }
 
-// Row 52. What a scene takes is known before: with less, it is refused with both numbers.
+// Row 52. The memory that a scene needs is known before it is computed: with less memory it is
+// refused with both numbers.
 TEST_F(Surroundings, LessMemoryThanTheSceneTakes) {
   for (const rlim_t megabytes : {rlim_t{75}, rlim_t{100}, rlim_t{150}}) {
     options_.address_space = megabytes * 1'000'000;

@@ -19,7 +19,7 @@ position_km = [7000, 0, 0]
 velocity_km_s = [0, 7, 0]
 )";
 
-/// The same over a full turn, of order 5.
+/// The same orbit over a full turn, with order 5.
 inline const std::string circular_scene =
     circular_orbit + "[jet]\norder = 5\nduration_canonical = 6.283185307179586\n" +
     gauss8("tolerance = 1e-15");

@@ -44,7 +44,7 @@ TEST_F(EvalErrors, MistakesOnTheCommandLine) {
     arguments.insert(arguments.end(), mistake.arguments.begin(), mistake.arguments.end());
     expect_error(arguments, 2, mistake.words);
   }
-  // A number may begin with a minus.
+  // A number may begin with a minus sign.
   EXPECT_EQ(eval_one("kepler", "-1,2,3,0,0,0").size(), 6U);
 }
 
@@ -81,7 +81,7 @@ TEST_F(EvalErrors, BadTables) {
       {"R_m,T_m,N_m,vR_m_s,vT_m_s\n1,2,3,4,5\n", {":1: the column vN_m_s is missing"}},
       {"R_m,T_m,N_m,vR_m_s,vT_m_s,vT_m_s\n", {":1: the column vT_m_s is there twice"}},
       {"x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n1,2,3,4,5,6\n", {":1: unknown column \"x_m\""}},
-      // What does not look like a column is nobody's business.
+      // An entry that does not look like a column is ignored.
       {"root:x:0:0:root,secret\n", {":1: unknown column 1; the columns must be"}},
       {rtn_header + "\n1,2,3,4,5,6\n1,2,3,4,5\n", {":3: has 5 columns, must have 6"}},
       {rtn_header + "\n1,2,3,4,5,6,7\n", {":2: has 7 columns"}},

@@ -26,13 +26,14 @@ TEST_F(EvalForms, RelativeElementsOfKeplersMotionStay) {
   const char* const columns[] = {"a_da_m",  "a_dlambda_m", "a_dex_m",
                                  "a_dey_m", "a_dix_m",     "a_diy_m"};
   const Json& row = json["rows"][0];
-  // The miss of the place is some nm of rounding, and elements enlarge it by a small number.
+  // The miss of the position is a few nm of rounding, and elements enlarge it by a small factor.
   EXPECT_LT(row["miss_estimate_m"].get<double>(), 1e-7);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(row[columns[i]].get<double>(), elements[i], 1e-6) << columns[i];
   }
   EXPECT_EQ(json["frame"], "relative-elements");
-  // On the same circle, 200 m ahead of the chief: at rest in the turning axes, at any time.
+  // The deputy is on the chief's circle, 200 m ahead: it is at rest in the turning axes at any
+  // time.
   const Json ahead = eval_json(
       {"tilted", "--frame", "curvilinear", "--to", "RTN", "--deviation", "0,200,0,0,0,0"});
   const double angle = 200 / circle_m;

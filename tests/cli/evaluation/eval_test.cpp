@@ -51,7 +51,8 @@ TEST_F(Eval, KeplersJetInClosedForm) {
 }
 
 TEST_F(Eval, EstimateOfTheMissIsNearTheNextTerm) {
-  // The terms of degree 5 above are what order 4 misses, but for those of higher degree.
+  // The error of order 4 consists of the terms of degree 5 above, except for terms of higher
+  // degree.
   store("circular", circular_scene);
   const double d = 1e-3;
   const Json json = eval_json(
@@ -86,8 +87,8 @@ TEST_F(Eval, TheDegreesThatAreLeftOutTellTheMiss) {
   }
 }
 
-// Off the radial direction a circular orbit's degrees are even or odd in turn, and the degree after
-// the last one evaluated tells little; those above it are stored too.
+// Off the radial direction the degrees of a circular orbit are alternately large and small, so that
+// the degree after the last evaluated one says little. The higher degrees are stored too.
 TEST_F(Eval, AllDegreesThatAreLeftOutTellTheMiss) {
   store("circular", circular_scene);
   for (const char* deviation : {"0,1e-2,0,0,0,0", "0,0,1e-2,0,0,0", "0,0,0,1e-2,0,0"}) {
@@ -134,7 +135,7 @@ std::array<double, 2> keplers_end(const std::array<double, 4>& deviation) {
           static_cast<double>(Extended(f * y + g * v - sin(time)))};
 }
 
-// Some hundred metres, where truncation is far below rounding.
+// At some hundred metres truncation is far below rounding.
 TEST_F(Eval, TheEstimateHoldsRoundingToo) {
   store("circular", circular_scene, {"--set", "reference.tolerance=1e-24"});
   const io::StoredJet jet = io::read_stored_jet(directory_ / "circular");
@@ -204,7 +205,7 @@ TEST_F(Eval, ManyRowsAgreeWithTheJetEvaluatedInExtendedPrecision) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(-1e4, 1e4);
   constexpr std::size_t rows = 10007;
-  // The columns in another order, blanks, Windows line ends.
+  // The columns are in another order, with blanks and Windows line ends.
   std::string text = "vN_m_s, R_m,T_m,N_m,vR_m_s,vT_m_s\r\n";
   std::vector<RelativeState> states(rows);
   for (RelativeState& state : states) {
@@ -291,7 +292,7 @@ TEST_F(Eval, ManyRowsAreCountedInJson) {
 
 TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   store("circular", circular_scene);
-  // Half the orbit's speed, and a distance whose powers overflow.
+  // The speed is half the orbit's, and the powers of the distance overflow.
   write("start.csv", rtn_header + "\n10,0,0,0,0,0\n0,0,0,0,3500,0\n1e80,0,0,0,0,0\n");
   const CommandResult result = hamjet({"eval", "circular", "--deviations", "start.csv"});
   EXPECT_EQ(result.exit_code, 0);
@@ -302,7 +303,7 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   EXPECT_EQ(table.rows[0][7], "inside");
   EXPECT_EQ(table.rows[1][7], "outside");
   EXPECT_EQ(table.rows[1][6], "");
-  // A size, one digit, is all that is meant there.
+  // Only the size, to one digit, is meaningful there.
   for (std::size_t i = 0; i < 6; ++i) {
     const std::string digits = table.rows[1][i].substr(0, table.rows[1][i].find('e'));
     EXPECT_LE(
@@ -316,7 +317,7 @@ TEST_F(Eval, MarksWhatTheSeriesDoesNotSupport) {
   EXPECT_EQ(json["outside"], 1);
   EXPECT_EQ(json["unknown"], 1);
   EXPECT_TRUE(json["rows"][1]["miss_estimate_m"].is_null());
-  // One degree has no decay; of a jet of higher order the other degrees are known.
+  // One degree alone has no decay; in a jet of higher order the other degrees are known.
   store("linear", circular_scene, {"--set", "jet.order=1"});
   EXPECT_EQ(eval_json({"linear", "--deviations", "start.csv"})["unknown"], 3);
   const Json beginning = eval_json({"circular", "--deviations", "start.csv", "--degree", "1"});
@@ -358,7 +359,7 @@ TEST_F(Eval, APlaneTakesDeviationsInItAlone) {
 
 TEST_F(Eval, OneDegreeOfFreedomIsCanonical) {
   store("oscillator", oscillator_scene);
-  // Mass and stiffness 1: a turn by the angle 1.
+  // With mass and stiffness 1 the flow is a turn by the angle 1.
   const auto state = eval_one("oscillator", "0.5,0.25", {"--frame", "canonical"});
   ASSERT_EQ(state.size(), 2U);
   EXPECT_NEAR(state[0], 0.5 * std::cos(1) + 0.25 * std::sin(1), 1e-15);

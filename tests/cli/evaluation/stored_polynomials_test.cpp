@@ -54,7 +54,7 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
   for (const Json& defect : summary["symplecticity_by_degree"]) {
     EXPECT_LT(defect["scaled"].get<double>(), 1e-10) << summary;
   }
-  // Errors by degree too, of which the largest is said.
+  // Errors by degree are printed too, and the largest of them is named.
   double largest = 0;
   for (const Json& error : summary["error_estimate_by_degree"]) {
     largest = std::max(largest, error["relative"].get<double>());
@@ -100,7 +100,8 @@ TEST_F(StoredPolynomials, OfFlowBoxesBecomeJets) {
   const Json jet = rows({"eval", "jet.h5"})["rows"][0];
   const Json plain = rows({"eval", "boxes/" + label() + "/jet.csv"})["rows"][0];
   for (const char* const name : {"R_m", "T_m", "N_m"}) {
-    // 1e-12 of 7000 km, grown by the shear along the orbit of a revolution to a hundred of that.
+    // The bound is 1e-12 of 7000 km, amplified by the shear of a revolution along the orbit to a
+    // hundred times as much.
     EXPECT_NEAR(jet[name].get<double>(), plain[name].get<double>(), 1e-3) << name;
   }
 }
@@ -119,7 +120,7 @@ TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
   }
 }
 
-// The row of the duration is that of the polynomials, whatever times stand before it.
+// The row of the duration comes from the polynomials, whatever times precede it.
 TEST_F(StoredPolynomials, AreThoseOfTheLastTime) {
   for (const char* const coordinates : {"flow-box", "spherical"}) {
     SCOPED_TRACE(coordinates);
@@ -137,7 +138,7 @@ TEST_F(StoredPolynomials, AreThoseOfTheLastTime) {
     Json named = rows({"eval", folder, "--time", duration})["rows"][0];
     named.erase("time_s");
     EXPECT_EQ(named, alone);
-    // Before it there are jets in positions and momenta alone, which is said.
+    // Before the duration there are only jets in positions and momenta, as the output says.
     const std::string plain = std::string("plain-") + coordinates;
     succeed({"run", "far.toml", "-o", plain, "-q", "--set", "jet.times_orbits=[0.4,0.9]"});
     const Json before = rows({"eval", plain, "--time", "all"});
@@ -170,7 +171,8 @@ TEST_F(StoredPolynomials, PredictTheSameOnAnyNumberOfThreads) {
   expect_error({"eval", "far.toml", "--deviation=1,0,0,0,0,0", "--threads", "0"}, 2, {"--threads"});
 }
 
-// The changes of two degrees vanish there, whose ratio is none; the floor of a flight stays.
+// The changes of two degrees vanish there, so that they have no ratio; the floor of a flight
+// remains.
 TEST_F(StoredPolynomials, TellAMissOfSmallDeviations) {
   for (const char* const coordinates : {"flow-box", "poincare", "cylindrical"}) {
     for (const char* const order : {"2", "3", "6"}) {
@@ -187,7 +189,8 @@ TEST_F(StoredPolynomials, TellAMissOfSmallDeviations) {
   }
 }
 
-// A field with one more harmonic keeps the chief's energy all but, and flies it elsewhere.
+// A field with one more harmonic changes the chief's energy hardly at all, but it takes the chief
+// elsewhere.
 TEST_F(StoredPolynomials, OfAnotherGravityFieldAreNotMade) {
   if (!io::hdf5_available()) GTEST_SKIP();
   succeed({"run", "far.toml", "-o", "plain", "-q"});
@@ -199,7 +202,8 @@ TEST_F(StoredPolynomials, OfAnotherGravityFieldAreNotMade) {
   succeed({"convert", "plain", "box.h5", "--coordinates", "flow-box", "--scene", "far.toml"});
 }
 
-// What a run cannot write is said, and what a method cannot integrate fails that part alone.
+// The output names a part that a run cannot write, and a method that cannot integrate a part fails
+// that part alone.
 TEST_F(StoredPolynomials, AreRefusedWithTheReason) {
   const CommandResult automatic =
       hamjet({"run", "far.toml", "-o", "auto", "--set", "jet.coordinates=auto"});
@@ -240,7 +244,7 @@ TEST_F(StoredPolynomials, OfACentreAloneAreReadAgain) {
     succeed({"convert", "boxes", "box.h5", "--coordinates", "flow-box"});
     EXPECT_EQ(of_another_period("box.h5"), of_another_period("boxes"));
   }
-  // Harmonics without a radius are of no field.
+  // Harmonics without a radius do not define a field.
   std::string summary = content(directory_ / "boxes/summary.json");
   const std::string radius = "\"radius_canonical\": 0.0";
   const std::size_t harmonics = summary.find("\"J\": [", summary.find(radius));

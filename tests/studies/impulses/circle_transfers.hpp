@@ -9,7 +9,7 @@
 #include "hamjet/studies/transfer.hpp"
 #include "studies/formation/impulses/least_impulses.hpp"
 
-// Transfers near a circle of radius 1, which has the mean motion 1, so that angles are times.
+// Transfers near a circle of radius 1, whose mean motion is 1, so that angles are times.
 
 namespace hamjet {
 
@@ -38,8 +38,8 @@ inline std::vector<ImpulseEffect> effects_of_circle(double duration, int interva
   return effects;
 }
 
-/// A deputy a metre or so from a chief on a circle of radius 7000 km, with velocities in m/s that
-/// are in units of the mean motion times a metre.
+/// A deputy about a metre from a chief on a circle of radius 7000 km. Velocities are in m/s; a unit
+/// is the mean motion times a metre.
 inline Scene metres_from_circle(const RelativeState& start, double duration) {
   const double radius_km = 7000;
   Scene scene = kepler_chief(0, radius_km, std::sqrt(std::pow(radius_km, 3) / 398600.4415), 2);

@@ -22,8 +22,8 @@ Scene waiting(const RelativeState& start, double time, double longest) {
   return scene;
 }
 
-/// The cost of two impulses a time apart, after a wait, to rest at the chief; in units of the mean
-/// motion times a metre.
+/// The cost of two impulses at a given distance in time, after a wait, to rest at the chief; in
+/// units of the mean motion times a metre.
 double expected_cost(const Vector6& start, double wait, double time) {
   Vector6 z = clohessy_wiltshire(wait) * start;
   const Eigen::Matrix<double, 6, 6> flow = clohessy_wiltshire(time);
@@ -47,7 +47,7 @@ TEST(CoastingTransfer, WaitsForTheNode) {
   // In the plane z^2 / (2 r) = 2e-6 m are to be made up for within a radian, by the impulse that is
   // otherwise none.
   EXPECT_NEAR(total_of(result, *result.coasting), 5, 1e-4);
-  // Either impulse is at the node, where the cost has a corner.
+  // Either impulse is at the node, at which the cost has a corner.
   const double node = std::numbers::pi - std::atan(0.75);
   const bool is_first = std::abs(plan.legs[0].start - node) < std::abs(plan.duration - node);
   EXPECT_NEAR(is_first ? plan.legs[0].start : plan.duration, node, 1e-4);
@@ -78,10 +78,10 @@ TEST(CoastingTransfer, DriftsUntilThePhaseIsRight) {
   EXPECT_NEAR(result.coasting->plan->legs[0].start, best, 1e-2);
   EXPECT_GT(best, 1);
   EXPECT_LT(best, 3);
-  EXPECT_LT(least, 0.6);  // Hohmann's is 0.5.
+  EXPECT_LT(least, 0.6);  // The cost of Hohmann's transfer is 0.5.
 }
 
-// No wait at all is one of the waits, and where the way is flown as it is listed.
+// A wait of zero is one of the waits, and is flown as it is listed.
 TEST(CoastingTransfer, CostsNoMoreThanThatWithoutAWait) {
   Scene scene = paper_chief(3);
   TransferSettings settings;

@@ -40,7 +40,7 @@ TEST(LeastImpulses, NothingIsCheaper) {
     for (const ImpulseEffect& effect : effects) {
       EXPECT_LE((effect.transpose() * least.costate).norm(), 1 + 1e-12);
     }
-    // Two impulses at random times, and the least that others need to make up for them.
+    // Two impulses at random times, and the least cost of other impulses with the same effect.
     for (int other = 0; other < 5; ++other) {
       std::uniform_int_distribution<std::size_t> place(0, effects.size() - 1);
       Vector6 rest = change;
@@ -133,7 +133,7 @@ TEST(ImpulsePlan, IsMarkedWhereTheSceneDoesNotAllowIt) {
   EXPECT_EQ(plan().forbidden, "");
   scene.transfer->keep_out_m = Eigen::Vector3d(0.55, 0.9, 1);
   EXPECT_NE(plan().forbidden.find("its way comes to 0.9"), std::string::npos) << plan().forbidden;
-  // Where the ends are the only times, the limit can divide nothing.
+  // If the ends are the only times, the limit cannot divide the impulses.
   scene.transfer->keep_out_m.reset();
   scene.transfer->impulse_gap = 0.75 * std::numbers::pi;
   scene.transfer->largest_impulse_m_s = 0.99 * impulse;
@@ -153,8 +153,7 @@ TEST(ImpulsePlan, DriftAlongTheOrbit) {
   EXPECT_GT(total_of(result), 2 / (3 * duration) * (1 - 1e-3));
 }
 
-// Kilometres from the paper's orbit: what the linear theory says misses by metres, and is
-// corrected.
+// Kilometres from the paper's orbit the linear theory misses by metres, and the plan is corrected.
 TEST(ImpulsePlan, IsCorrectedByFlying) {
   Scene scene = paper_chief(3);
   TransferSettings settings;
@@ -171,7 +170,7 @@ TEST(ImpulsePlan, IsCorrectedByFlying) {
     if (!point.is_candidate()) continue;
     EXPECT_GT(point.best().total_change_m_s(), plan.total_change_m_s());
   }
-  // More time never costs more where one may wait beside the end.
+  // More time never costs more if the deputy may wait near the end.
   for (std::size_t k = 1; k < result.optimal->by_time.size(); ++k) {
     EXPECT_LE(result.optimal->by_time[k].change_m_s.value(),
               result.optimal->by_time[k - 1].change_m_s.value() * (1 + 1e-3));
@@ -188,7 +187,7 @@ Scene far_behind() {
     const double angle = along / radius;
     RelativeState state;
     state.position_m = {radius * (std::cos(angle) - 1), -radius * std::sin(angle), 0};
-    return state;  // at rest in the rotating axes
+    return state;  // the deputy is at rest in the rotating axes
   };
   scene.order = 3;
   scene.transfer->refined_miss_m = 1e-3;
@@ -223,7 +222,8 @@ TEST(ImpulsePlan, FarAwayIsNotDearerThanOtherWays) {
   EXPECT_LT(total_of(result), 1.01 * 2 * 50e3 / (3 * 10 * std::numbers::pi));
   ASSERT_TRUE(plan.lower_bound_m_s.has_value());
   EXPECT_NEAR(*plan.lower_bound_m_s, plan.total_change_m_s(), 1e-3 * plan.total_change_m_s());
-  // The theory about the chief is told beside what was flown, and is far from it.
+  // The prediction of the theory about the chief is reported beside the flown result, and differs
+  // much from it.
   for (const LeastChange& one : result.optimal->by_time) {
     ASSERT_TRUE(one.change_m_s.has_value());
     EXPECT_GT(*one.change_m_s, 2 * plan.total_change_m_s());
@@ -258,7 +258,7 @@ TEST(ImpulsePlan, HasNoImpulsesOfNoUse) {
   }
 }
 
-// Who is there already needs none.
+// A deputy that is already there needs no impulse.
 TEST(ImpulsePlan, IsNoneWhereTheDeputyComesByItself) {
   Scene scene = metres_from_circle({{0, 1, 0}, {0, 0, 0}}, 3);
   scene.transfer->end = RelativeState{{0, 1, 0}, {0, 0, 0}};

@@ -14,7 +14,7 @@
 #include "studies/formation/impulses/linear_program.hpp"
 #include "support/errors.hpp"
 
-// The solver of least impulses, and what is checked of its answers.
+// Tests the solver of least impulses and the checks of its answers.
 
 namespace hamjet {
 namespace {
@@ -34,8 +34,8 @@ TEST(LinearProgram, GrowsByColumns) {
   program.solve();
   EXPECT_NEAR(program.values()[0], 2, 1e-9);
   EXPECT_NEAR(program.values()[1], 0, 1e-9);
-  EXPECT_NEAR(program.duals()[0], 2, 1e-9);  // what one more of the first row costs
-  // One that does twice as much for the same, of which there is half.
+  EXPECT_NEAR(program.duals()[0], 2, 1e-9);  // the price of one more unit of the first row
+  // A variable that does twice as much for the same price, but of which there is half.
   program.add({{2, 0.5, {{0, 2}}}});
   program.solve();
   EXPECT_NEAR(program.values()[0], 1, 1e-9);
@@ -82,7 +82,7 @@ TEST(LeastImpulses, AreTheLeastOfAllPairs) {
   }
 }
 
-// Whatever the solver says is checked without it.
+// Every answer of the solver is checked without the solver.
 TEST(LeastImpulses, WhatIsNotTheLeastIsSeen) {
   const std::vector<ImpulseEffect> effects = effects_of_circle(3 * std::numbers::pi, 48);
   Vector6 change;
@@ -97,16 +97,17 @@ TEST(LeastImpulses, WhatIsNotTheLeastIsSeen) {
     spoil(wrong);
     EXPECT_THROW(require_least(effects, change, infinity, wrong), UnprovedLeast);
   };
-  // Another change, none at all, and a number that is none.
+  // The checks are tried on another change, on no change, and on a change that is not a number.
   refuses([](LeastImpulses& one) { one.impulses[0].change *= 1 + 1e-6; });
   refuses([](LeastImpulses& one) { one.impulses.clear(); });
   refuses([](LeastImpulses& one) { one.impulses[0].change[1] = std::nan(""); });
-  // A costate that proves less, a bound above what it proves, and another sum than there is.
+  // They are tried on a costate that proves less, on a bound above the proved one, and on a wrong
+  // sum.
   refuses([](LeastImpulses& one) { one.costate *= 0.999; });
   refuses([](LeastImpulses& one) { one.costate.setConstant(std::nan("")); });
   refuses([](LeastImpulses& one) { one.lower_bound *= 1.001; });
   refuses([](LeastImpulses& one) { one.cost *= 0.999; });
-  // As much by more impulses: there and back at one time.
+  // The same change is made by more impulses: there and back at one time.
   refuses([&](LeastImpulses& one) {
     const Eigen::Vector3d there(0.1, 0, 0);
     one.impulses.push_back({0, there});

@@ -9,13 +9,14 @@
 #include "circle_transfers.hpp"
 #include "support/errors.hpp"
 
-// Optimal impulses none of which is above a limit. Expected: closed forms where the impulses fill
-// up in the order of what they do, and duality.
+// Optimal impulses that are all below a limit. Expected: closed forms if the impulses fill up in
+// the order of their effects, and duality.
 
 namespace hamjet {
 namespace {
 
-/// Effects on the first three components alone, or on the last, so many times as `efficiencies`.
+/// Each time has an effect on the first three components alone or on the last one; `efficiencies`
+/// gives the sizes.
 std::vector<ImpulseEffect> separate_effects(const std::vector<double>& efficiencies) {
   std::vector<ImpulseEffect> effects;
   for (const bool is_first : {true, false}) {
@@ -29,7 +30,7 @@ std::vector<ImpulseEffect> separate_effects(const std::vector<double>& efficienc
   return effects;
 }
 
-// The times fill up from the one at which an impulse does most.
+// The times fill up from the one at which an impulse has the largest effect.
 TEST(LimitedImpulses, FillUpInTheOrderOfTheirEffects) {
   const std::vector<double> efficiencies = {0.5, 2, 1, 0.25, 1.5};
   const double most = 0.3;
@@ -41,9 +42,9 @@ TEST(LimitedImpulses, FillUpInTheOrderOfTheirEffects) {
   EXPECT_NEAR(found->cost, 0.6 + 0.05 + 0.25, 1e-9);
   EXPECT_NEAR(found->lower_bound, found->cost, 1e-8);
   ASSERT_EQ(found->impulses.size(), 4U);
-  EXPECT_NEAR(found->impulses[0].change[1], 0.3, 1e-9);   // at the time of 2
-  EXPECT_NEAR(found->impulses[1].change[1], 0.05, 1e-9);  // of 1
-  EXPECT_NEAR(found->impulses[2].change[1], 0.3, 1e-9);   // of 1.5
+  EXPECT_NEAR(found->impulses[0].change[1], 0.3, 1e-9);   // at the time of efficiency 2
+  EXPECT_NEAR(found->impulses[1].change[1], 0.05, 1e-9);  // at the time of efficiency 1
+  EXPECT_NEAR(found->impulses[2].change[1], 0.3, 1e-9);   // at the time of efficiency 1.5
   EXPECT_NEAR((found->impulses[3].change - Eigen::Vector3d(0.2, 0, -0.15)).norm(), 0, 1e-9);
   // All together reach 0.3 (0.5 + 2 + 1 + 0.25 + 1.5) = 1.575.
   change[1] = 1.57;

@@ -24,7 +24,7 @@ Scene through(const std::vector<Waypoint>& waypoints, const RelativeState& start
   return scene;
 }
 
-/// The velocity changes of the linear theory, of which a metre changes less than 1e-6.
+/// The velocity changes of the linear theory; a metre changes them by less than 1e-6.
 std::vector<Eigen::Vector3d> expected_changes(const Scene& scene) {
   const TransferSettings& settings = *scene.transfer;
   std::vector<Waypoint> places = settings.waypoints;
@@ -72,7 +72,7 @@ TEST(WaypointPlan, IsThatOfTheLinearTheoryNearACircle) {
             result.waypoints->plans[0].total_change_m_s() < plan.total_change_m_s() ? 0U : 1U);
 }
 
-// A place that the transfer of two impulses comes by asks for no impulse there.
+// A waypoint that the transfer of two impulses passes needs no impulse.
 TEST(WaypointPlan, OnTheWayAsksForNothing) {
   Scene scene = paper_chief(4);
   TransferSettings settings;

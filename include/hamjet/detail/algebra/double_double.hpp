@@ -13,13 +13,13 @@
 namespace hamjet {
 
 /// Numbers as unevaluated sums high + low of two doubles, |low| at most half a unit in the last
-/// place of high: about 31 digits, with the range of double. V is double, or a vector of doubles
-/// for as many numbers at once.
+/// place of high: about 31 digits, with the range of double. V is double, or a vector of doubles,
+/// whose lanes are independent numbers.
 ///
 /// With u = 2^-53, sums are good to 3 u^2, products to 5 u^2 and quotients to some 10 u^2, each
 /// relative to the result. Source: M. Joldes, J.-M. Muller and V. Popescu, Tight and rigorous error
 /// bounds for basic building blocks of double-word arithmetic, ACM TOMS 44 (2017) 15, algorithms 6
-/// and 11. What overflows is not a number, rather than infinite.
+/// and 11. An overflow gives NaN rather than infinity.
 template <class V>
 class Doubled {
  public:
@@ -33,7 +33,7 @@ class Doubled {
   requires(std::is_arithmetic_v<Number> && !std::is_same_v<Number, V>)
       Doubled(Number value)  // NOLINT(google-explicit-constructor): as double(value) would
       : high(static_cast<double>(value)), low(0.0) {}
-  /// All lanes alike.
+  /// A number with all lanes alike.
   template <class W>
   requires(std::is_same_v<W, double> &&
            !std::is_same_v<V, W>) explicit Doubled(const Doubled<W>& value)
@@ -63,7 +63,7 @@ class Doubled {
     const Doubled p = exact_product(a.high, b.high);
     return normalised(p.high, p.low + add_product(V(a.low * b.high), a.high, b.low));
   }
-  /// Three quotients of doubles, each of what the ones before have left.
+  /// Three quotients of doubles, each of the remainder that the quotients before it have left.
   friend Doubled operator/(const Doubled& a, const Doubled& b) {
     const V first = a.high / b.high;
     Doubled left = a - b * Doubled(first);
@@ -108,13 +108,14 @@ class Doubled {
   }
 
  private:
-  /// The same where |a| is not below |b| (Dekker).
+  /// The sum of two doubles without error where |a| is not below |b| (Dekker).
   static Doubled normalised(const V& a, const V& b) {
     const V sum = a + b;
     return {sum, b - (sum - a)};
   }
 
-  /// sum + a b, fused in every copy or in none: each would have its own last digits otherwise.
+  /// sum + a b, fused either in every copy of the code or in none: otherwise copies would differ in
+  /// their last digits.
   static V add_product(const V& sum, const V& a, const V& b) {
 #ifdef __FP_FAST_FMA
     using std::fma;
@@ -149,7 +150,7 @@ using DoubleDouble = Doubled<double>;
 
 }  // namespace hamjet
 
-/// The range is that of double.
+/// Numeric limits; the range is that of double.
 template <>
 class std::numeric_limits<hamjet::DoubleDouble> : public std::numeric_limits<double> {
  public:
@@ -157,7 +158,7 @@ class std::numeric_limits<hamjet::DoubleDouble> : public std::numeric_limits<dou
   static constexpr int digits = 104;
   static constexpr int digits10 = 31;
   static constexpr int max_digits10 = 33;
-  /// Four times what one sum may err by, twice what one product may.
+  /// Four times the error bound of one sum, and twice that of one product.
   static hamjet::DoubleDouble epsilon() { return 0x1p-103; }
   static hamjet::DoubleDouble min() { return std::numeric_limits<double>::min(); }
   static hamjet::DoubleDouble max() { return std::numeric_limits<double>::max(); }
@@ -172,7 +173,8 @@ inline bool isfinite(const DoubleDouble& x) { return std::isfinite(x.high + x.lo
 inline bool isnan(const DoubleDouble& x) { return std::isnan(x.high + x.low); }
 inline DoubleDouble abs(const DoubleDouble& x) { return x < 0 ? -x : x; }
 
-// These are called some times a step: what they take in extended precision does not show.
+// These functions are called a few times per step, so that their detour through extended precision
+// costs nothing that could be measured.
 #define HAMJET_DOUBLE_DOUBLE_FUNCTION(name)                        \
   inline DoubleDouble name(const DoubleDouble& x) {                \
     return DoubleDouble(Extended(name(static_cast<Extended>(x)))); \

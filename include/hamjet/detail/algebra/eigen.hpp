@@ -4,8 +4,8 @@
 
 #include "hamjet/instruction_set.hpp"
 
-// Eigen must be configured as when the library was compiled: each side frees memory that the other
-// one allocates.
+// Eigen must be configured as it was when the library was compiled, because each side frees memory
+// that the other one allocates.
 static_assert(EIGEN_DEFAULT_ALIGN_BYTES == hamjet::built_for::eigen_alignment &&
                   EIGEN_MAX_STATIC_ALIGN_BYTES == hamjet::built_for::eigen_static_alignment &&
                   EIGEN_MALLOC_ALREADY_ALIGNED == hamjet::built_for::eigen_uses_malloc,

@@ -8,9 +8,9 @@
 
 namespace hamjet {
 
-/// Values of a space's monomials at one point, each formed from its parent by one product.
-/// Evaluates several series there, truncated at any degree, and their derivatives. For many points
-/// see MapEvaluator.
+/// The values of a space's monomials at one point, each formed from its parent by one product.
+/// Several series and their derivatives can then be evaluated there, truncated at any degree. For
+/// many points see MapEvaluator.
 class MonomialValues {
  public:
   explicit MonomialValues(SpacePointer space);
@@ -20,9 +20,9 @@ class MonomialValues {
 
   /// The terms of degree 0..degree of a series at the point, summed from the highest degree down.
   double value(const Series<double>& series, int degree) const;
-  /// A bound of the rounding of that value: of n terms of degree d at most, to first order (n + d)
-  /// unit round-offs of the sum of their magnitudes (Higham, Accuracy and Stability of Numerical
-  /// Algorithms, 2nd ed., section 5.1).
+  /// A bound of the rounding error of that value. A term of degree d, of n terms, contributes to
+  /// first order at most (n + d) unit round-offs of its magnitude (Higham, Accuracy and Stability
+  /// of Numerical Algorithms, 2nd ed., section 5.1).
   double rounding(const Series<double>& series, int degree) const;
   /// The homogeneous part of one degree of a series at the point.
   double slice(const Series<double>& series, int degree) const;
@@ -32,9 +32,10 @@ class MonomialValues {
 
  private:
   SpacePointer space_;
-  std::vector<std::size_t> parent_;    ///< of each monomial: the one with a factor less
-  std::vector<std::size_t> variable_;  ///< of each monomial: the variable of that factor
-  std::vector<std::size_t> lowered_;   ///< [monomial][variable]: that exponent less one, if not 0
+  std::vector<std::size_t> parent_;    ///< by monomial: the monomial with one factor less
+  std::vector<std::size_t> variable_;  ///< by monomial: the variable of that factor
+  /// [monomial][variable]: the monomial with that exponent less one, if not 0.
+  std::vector<std::size_t> lowered_;
   std::vector<double> values_;
 };
 

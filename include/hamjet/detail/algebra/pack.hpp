@@ -15,8 +15,9 @@ namespace hamjet {
 
 namespace detail {
 
-/// The vector type for `Lanes` numbers: for double the machine's native width, or narrower if fewer
-/// lanes are wanted, never wider (a vector wider than the machine's compiles to poor code).
+/// The vector type for `Lanes` numbers. For double it has the machine's native width, or less if
+/// fewer lanes are wanted, never more: compilers translate a vector wider than the machine's
+/// poorly.
 template <class Real, int Lanes>
 struct VectorFor {
   using type = Real;
@@ -64,7 +65,7 @@ template <class V>
 auto sum_of_lanes(const V& vector) {
   return std::experimental::reduce(vector);
 }
-/// Half to half, so that few additions wait for another.
+/// Halves are added to each other, so that few additions wait for another.
 template <class V>
 DoubleDouble sum_of_lanes(const Doubled<V>& vector) {
   if constexpr (V::size() == 1) {
@@ -82,9 +83,9 @@ DoubleDouble sum_of_lanes(const Doubled<V>& vector) {
 }  // namespace detail
 
 /// A fixed number of reals that go through the same arithmetic together, such as the stages of an
-/// implicit Runge-Kutta method. An array of vectors of the machine's width; for extended precision
-/// the same class over an array of scalars, for double-double over pairs of vectors. Forms a
-/// commutative ring componentwise (a field where no component is zero).
+/// implicit Runge-Kutta method. A pack is an array of vectors of the machine's width; in extended
+/// precision it is an array of scalars, and of double-double numbers an array of pairs of vectors.
+/// All operations act componentwise.
 template <class Real, int Lanes>
 struct Pack {
   using real_type = Real;
@@ -117,7 +118,7 @@ struct Pack {
   }
 
   Real lane(int i) const {
-    // Without signs a quotient is a shift.
+    // An unsigned division by a power of two is a shift.
     const auto k = static_cast<std::size_t>(i);
     constexpr std::size_t size = width;
     if constexpr (width == 1) {
@@ -152,7 +153,8 @@ struct Pack {
     for (std::size_t i = 0; i < parts; ++i) part[i] /= o.part[i];
     return *this;
   }
-  // Part by part: a copy to be changed goes through memory where there are several parts.
+  // The operation is done part by part: with several parts, a copy that is then changed would go
+  // through memory.
   friend Pack operator+(const Pack& a, const Pack& b) {
     return by_part([&](std::size_t i) { return a.part[i] + b.part[i]; });
   }
@@ -204,7 +206,8 @@ Real dot(const Pack<Real, Lanes>& a, const Pack<Real, Lanes>& b) {
   }
 }
 
-/// Lane by lane the larger of a and the magnitude of b. Always inlined, for a call takes as long.
+/// Lane by lane the larger of a and the magnitude of b. The function is always inlined, for a call
+/// would take as long as its work.
 template <class Real, int Lanes>
 [[gnu::always_inline]] inline Pack<Real, Lanes> larger_magnitude(const Pack<Real, Lanes>& a,
                                                                  const Pack<Real, Lanes>& b) {
@@ -231,7 +234,7 @@ template <class Real, int Lanes>
     auto largest = simd::abs(x.part[0]);
     for (std::size_t i = 1; i < x.parts; ++i) largest = simd::max(largest, simd::abs(x.part[i]));
     const Real result = simd::hmax(largest);
-    // The machine's maximum of a number and a NaN is the number, which hides the NaN.
+    // For a number and a NaN the machine's maximum is the number, which would hide the NaN.
     for (std::size_t i = 0; i < x.parts; ++i) {
       if (!simd::all_of(simd::abs(x.part[i]) <= result)) {
         return std::numeric_limits<Real>::quiet_NaN();
@@ -265,8 +268,8 @@ Pack<Real, Lanes> sqrt(const Pack<Real, Lanes>& x) {
   }
 }
 
-// The transcendental functions are evaluated at degree 0 alone, once an operation: no need for
-// speed.
+// The transcendental functions are evaluated at degree 0 alone, once per operation, so that their
+// speed does not matter.
 #define HAMJET_PACK_FUNCTION(name)                     \
   template <class Real, int Lanes>                     \
   Pack<Real, Lanes> name(const Pack<Real, Lanes>& x) { \

@@ -6,7 +6,8 @@
 
 namespace hamjet {
 
-/// How the degree-d slice of a product of two series is formed without the constant terms:
+/// How the degree-d slice of a product of two series is formed, without the products with the
+/// constant terms:
 ///
 ///   (a b)_d  =  sum over 1 <= i <= d-1 of a_i b_(d-i)     ("interior product").
 ///
@@ -18,7 +19,7 @@ namespace hamjet {
 /// loaded serves several times. With fewer than three variables every block has one monomial.
 ///
 /// Each unordered pair of different blocks {x, y} is listed once and serves both a_x b_y and a_y
-/// b_x; where a block meets itself it stands in `diagonal`.
+/// b_x; a block that is multiplied with itself stands in `diagonal`.
 struct ProductSchedule {
   /// Offsets of two different blocks, the one of smaller block degree first.
   struct Pair {
@@ -27,16 +28,17 @@ struct ProductSchedule {
   };
   /// One block of the result.
   struct Output {
-    std::uint32_t offset;        ///< of the block in the result
-    std::uint32_t block_degree;  ///< m
-    std::uint32_t first_pair;    ///< into `pairs`
-    std::uint32_t first_run;     ///< into `run_ends`: one entry for each m_x = 0..m/2
-    std::uint32_t diagonal;      ///< block of degree m/2 that meets itself, or no_diagonal
+    std::uint32_t offset;        ///< offset of the block in the result
+    std::uint32_t block_degree;  ///< degree m of the block in the last three variables
+    std::uint32_t first_pair;    ///< index of its first pair in `pairs`
+    std::uint32_t first_run;     ///< index in `run_ends`, which has one entry for each m_x = 0..m/2
+    std::uint32_t diagonal;  ///< offset of the block of degree m/2 that is multiplied with itself,
+                             ///< or no_diagonal
   };
 
-  std::vector<Output> outputs;  ///< those of equal block degree together
+  std::vector<Output> outputs;  ///< outputs of equal block degree stand together
   std::vector<Pair> pairs;
-  std::vector<std::uint32_t> run_ends;  ///< end, in `pairs`, of the pairs with this m_x
+  std::vector<std::uint32_t> run_ends;  ///< index in `pairs` of the end of the pairs with this m_x
 
   static constexpr std::uint32_t no_diagonal = UINT32_MAX;
 

@@ -51,7 +51,7 @@ constexpr std::size_t product_position(std::size_t i, std::size_t j) {
   return (ri + rj) * (ri + rj + 1) / 2 + k;
 }
 
-/// One machine vector of a coefficient: a part of a pack, or a number in all lanes.
+/// One machine vector of a coefficient: a part of a pack, or a single number repeated in all lanes.
 template <class Vector, class T>
 [[gnu::always_inline]] inline Vector part_of(const T& x, std::size_t part) {
   if constexpr (std::is_same_v<Vector, typename Parts<T>::Vector>) {
@@ -62,7 +62,7 @@ template <class Vector, class T>
 }
 
 /// sums[i * j - First] += a[i] * b[j] for all monomials i of degree MA and j of degree MB whose
-/// product stands at a position from First to before Last, fully unrolled.
+/// product has a position in First..Last-1, fully unrolled.
 template <std::size_t MA, std::size_t MB, std::size_t First, std::size_t Last, class A, class B,
           class Vector, std::size_t Count>
 [[gnu::always_inline]] inline void multiply_blocks(std::array<Vector, Count>& sums, const A* a,
@@ -104,34 +104,34 @@ void multiply_blocks(Vector* sums, const A* a, const B* b, std::size_t m_a, std:
   }
 }
 
-/// Whether the numbers live in machine registers. The others (extended precision) gain nothing from
-/// unrolled blocks, which would cost minutes of compilation.
+/// Whether the numbers live in machine registers. Other numbers (extended precision) gain nothing
+/// from unrolled blocks, which would cost minutes of compilation.
 template <class Vector>
 inline constexpr bool is_machine_vector =
     std::is_arithmetic_v<Vector> || std::experimental::is_simd_v<Vector>;
 
-/// Whether blocks of degree 7 and 8 are unrolled too, which takes long to compile: for plain
-/// doubles, and for packs of vectors of the machine's full width, as those of the usual
-/// integrations are.
+/// Whether blocks of degree 7 and 8 are unrolled too, which takes long to compile. They are for
+/// plain doubles, and for packs of vectors of the machine's full width, which the usual
+/// integrations use.
 template <class T>
 inline constexpr bool unrolls_large_blocks = std::is_same_v<T, double>;
 template <int Lanes>
 inline constexpr bool unrolls_large_blocks<Pack<double, Lanes>> =
     Pack<double, Lanes>::width == detail::VectorFor<double, 2>::native;
 
-/// So many sums are formed together at most: they stay in registers, of which there are 32 with
-/// AVX-512, with what compilers keep of the factors beside them. Of a block of degree 6, all 28
-/// sums at once take 1.15 times as long as two halves, for a part of them then goes through memory.
+/// The largest number of sums that are formed together. They stay in registers (32 with AVX-512),
+/// beside the factors that compilers keep there. A block of degree 6 takes 1.15 times as long with
+/// all 28 sums at once as in two halves, for a part of the sums then goes through memory.
 inline constexpr std::size_t most_sums = 15;
 
-/// Where the sums that are formed together from `first` on end: a block is cut into nearly equal
-/// parts.
+/// The end of the group of sums that are formed together from `first` on. A block is cut into
+/// nearly equal groups.
 constexpr std::size_t end_of_sums(std::size_t first, std::size_t block_size) {
   const std::size_t parts = (block_size + most_sums - 1) / most_sums;
   return std::min(first + (block_size + parts - 1) / parts, block_size);
 }
 
-/// What is formed: c = a b, c = a^2 (where b is a), or c += a b.
+/// Which slice is formed: c = a b, c = a^2 (where b is a), or c += a b.
 enum class SliceForm { product, square, added_product };
 
 template <SliceForm Form, class Vector>
@@ -143,7 +143,8 @@ void put_sum(const Vector& sum, Vector& target) {
   }
 }
 
-/// Forms the sums from First on of one block; b may be of numbers where a is of packs.
+/// Forms the sums of one block from First on; the coefficients of b may be numbers where those of a
+/// are packs.
 template <std::size_t M, SliceForm Form, std::size_t First = 0, class T, class B>
 void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pair* pairs,
                 const std::uint32_t* run_ends, const T* a, const B* b, T* c) {
@@ -220,7 +221,7 @@ template <SliceForm Form, class T, class B>
 void form_unrolled_blocks(const ProductSchedule::Output* output, const ProductSchedule::Output* end,
                           const ProductSchedule::Pair* pairs, const std::uint32_t* run_ends,
                           const T* a, const B* b, T* c) {
-  // Outputs of equal block degree stand together: one dispatch for all of them.
+  // Outputs of equal block degree stand together, so that one dispatch serves all of them.
   while (output != end) {
     const auto run = [&]<std::size_t M>(std::integral_constant<std::size_t, M>) {
       for (; output != end && output->block_degree == M; ++output) {
@@ -273,8 +274,9 @@ using FormBlocks = void(const ProductSchedule::Output*, const ProductSchedule::O
 template <int Lanes>
 using DoublePack = Pack<double, Lanes>;
 
-// What the library's integrations use is compiled once, in slice_product.cpp: for one T it takes
-// ten seconds, and optimised less elsewhere it would be slower wherever the linker chose that copy.
+// The blocks that the library's integrations use are compiled once, in slice_product.cpp. For one T
+// this takes ten seconds; and a copy that another file compiles with less optimisation would be
+// slower wherever the linker chose it.
 #define HAMJET_BLOCKS_OF(Prefix, T)                                       \
   Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::product>; \
   Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::square>;
@@ -293,11 +295,12 @@ using DoublePack = Pack<double, Lanes>;
 
 HAMJET_COMPILED_BLOCKS(extern)
 
-/// Uncoupled variables have one coefficient each in a slice of degree d >= 2, and the schedule
-/// would take longer than its sum. The i-th power of a variable stands at variable + 1 + (i - 1) v.
+/// In uncoupled variables a slice of degree d >= 2 has one coefficient per variable, and reading
+/// the schedule would take longer than the sum. The i-th power of a variable stands at variable + 1
+/// + (i - 1) v.
 template <class T>
 void form_uncoupled(std::size_t variables, int d, const T* a, const T* b, T* c) {
-  const std::size_t last = static_cast<std::size_t>(d - 2) * variables;  // of the power d - 1
+  const std::size_t last = static_cast<std::size_t>(d - 2) * variables;  // place of the power d - 1
   for (std::size_t k = 1; k <= variables; ++k) {
     T sum = a[k] * b[k + last];
     for (std::size_t i = variables; i <= last; i += variables) sum += a[k + i] * b[k + last - i];
@@ -343,7 +346,7 @@ void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
   detail::form_slice<detail::SliceForm::square>(space.products(d), a, a, c);
 }
 
-/// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i), of packs and numbers.
+/// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i), where a holds packs and b numbers.
 template <class T, class Real>
 void add_interior_product(const SeriesSpace& space, int d, const T* a, const Real* b, T* c) {
   detail::form_slice<detail::SliceForm::added_product>(space.products(d), a, b, c);

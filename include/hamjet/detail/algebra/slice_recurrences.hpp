@@ -5,16 +5,16 @@
 
 #include "hamjet/detail/algebra/slice_product.hpp"
 
-// Elementary functions of series, one homogeneous slice at a time. With E the Euler operator
-// (E f)_d = d f_d, a function w = f(u) that satisfies a differential equation gives a recurrence
-// for its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
-// Evaluating Derivatives, chapter 13). Each is split as
+// Elementary functions of series, one homogeneous slice at a time. With E the Euler operator (E
+// f)_d = d f_d, a function w = f(u) that satisfies a differential equation gives a recurrence for
+// its slices (Knuth, The Art of Computer Programming 2, section 4.7; Griewank and Walther,
+// Evaluating Derivatives, chapter 13). Each recurrence is split as
 //
 //     w_d = scale sum_d(u_1..u_(d-1), w_1..w_(d-1)) + f'(u_0) u_d ,
 //
-// because an implicit integrator knows the sum before it knows u_d. The functions below write
-// sum_d into the degree-d slice of w (or of both results) and leave all else alone; the scale,
-// which the constant terms alone make, stands beside each. `scratch` holds one series.
+// because an implicit integrator knows the sum before it knows u_d. The functions below write sum_d
+// into the degree-d slice of w (or of both results) and change nothing else. The scale depends on
+// the constant terms alone; a comment states it beside each function. `scratch` holds one series.
 
 namespace hamjet {
 
@@ -27,8 +27,8 @@ void scale_slices(const SeriesSpace& space, int d, const T* u, T* scratch, Weigh
   }
 }
 
-/// Of w = u / v: w v = u, so v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i v_(d-i). Of w = 1 / v
-/// the same without u_d.
+/// The sum for w = u / v: from w v = u follows v_0 w_d = u_d - w_0 v_d - sum_(i=1)^(d-1) w_i
+/// v_(d-i). For w = 1 / v the term u_d is absent.
 template <class T>
 void quotient_sum(const SeriesSpace& space, int d, const T* v, T* w) {
   interior_product(space, d, w, v, w);
@@ -38,7 +38,7 @@ T quotient_scale(const T& inverse_v0) {
   return -inverse_v0;
 }
 
-/// Of w = sqrt(u): w^2 = u, so 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
+/// The sum for w = sqrt(u): from w^2 = u follows 2 w_0 w_d = u_d - sum_(i=1)^(d-1) w_i w_(d-i).
 template <class T>
 void square_root_sum(const SeriesSpace& space, int d, T* w) {
   interior_square(space, d, w, w);
@@ -48,8 +48,8 @@ T square_root_scale(const T& w0) {
   return T(-1) / (w0 + w0);
 }
 
-/// Of w = u^a: u E w = a w E u, so u_0 w_d = a w_0 u_d + sum_(i=1)^(d-1) (a i - (d - i))/d u_i
-/// w_(d-i).
+/// The sum for w = u^a: from u E w = a w E u follows u_0 w_d = a w_0 u_d + sum_(i=1)^(d-1) (a i -
+/// (d - i))/d u_i w_(d-i).
 template <class T, class Real>
 void power_sum(const SeriesSpace& space, int d, const Real& exponent, const T* u, T* w,
                T* scratch) {
@@ -62,14 +62,16 @@ T power_scale(const T& u0) {
   return T(1) / u0;
 }
 
-/// Of w = exp(u), of scale 1: E w = w E u, so w_d = w_0 u_d + sum_(i=1)^(d-1) i/d u_i w_(d-i).
+/// The sum for w = exp(u), with scale 1: from E w = w E u follows w_d = w_0 u_d + sum_(i=1)^(d-1)
+/// i/d u_i w_(d-i).
 template <class Real, class T>
 void exponential_sum(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
   interior_product(space, d, scratch, w, w);
 }
 
-/// Of w = log(u): u E w = E u, so u_0 w_d = u_d - sum_(i=1)^(d-1) i/d w_i u_(d-i).
+/// The sum for w = log(u): from u E w = E u follows u_0 w_d = u_d - sum_(i=1)^(d-1) i/d w_i
+/// u_(d-i).
 template <class Real, class T>
 void logarithm_sum(const SeriesSpace& space, int d, const T* u, T* w, T* scratch) {
   scale_slices(space, d, w, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
@@ -80,8 +82,9 @@ T logarithm_scale(const T& u0) {
   return T(-1) / u0;
 }
 
-/// Of s = sin(u), of scale 1, and c = cos(u), of scale -1: E s = c E u and E c = -s E u, so
-/// s_d = c_0 u_d + sum_(i=1)^(d-1) i/d u_i c_(d-i),  c_d = -s_0 u_d - sum i/d u_i s_(d-i).
+/// The sums for s = sin(u), with scale 1, and c = cos(u), with scale -1: from E s = c E u and E c =
+/// -s E u follow s_d = c_0 u_d + sum_(i=1)^(d-1) i/d u_i c_(d-i) and c_d = -s_0 u_d - sum i/d u_i
+/// s_(d-i).
 template <class Real, class T>
 void sine_cosine_sum(const SeriesSpace& space, int d, const T* u, T* s, T* c, T* scratch) {
   scale_slices(space, d, u, scratch, [&](int i) { return Real(Real(i) / Real(d)); });
@@ -90,7 +93,7 @@ void sine_cosine_sum(const SeriesSpace& space, int d, const T* u, T* s, T* c, T*
 }
 
 /// x^exponent: by multiplications and one square root where twice the exponent is a small integer
-/// (every power of gravity), by the standard pow elsewhere.
+/// (as for every power that gravity needs), by the standard pow elsewhere.
 template <class T, class Real>
 T power(const T& x, const Real& exponent) {
   const double twice = 2 * static_cast<double>(exponent);

@@ -10,38 +10,40 @@
 
 namespace hamjet {
 
-/// How the powers u^(-n/2), n = 1, 2, .., of the values of an operation list are made together: of
-/// one value all from the power nearest to zero, whose digits count most, and from 1/u, so that
-/// they take one root and one division. u^(-n/2) is u^(-m/2) (1/u)^((n - m)/2) where n and m, that
-/// of the nearest, are both odd or both even, and (1/u)^(n/2) elsewhere. An odd power, if there is
-/// one, is taken for the nearest, for it has the root.
+/// A plan by which the powers u^(-n/2), n = 1, 2, .., of each value u of an operation list are
+/// formed together. All powers of one value are made from the power nearest to zero, u^(-m/2),
+/// whose digits count most, and from 1/u, so that they take one root and one division. If n and m
+/// are both odd or both even, u^(-n/2) is u^(-m/2) (1/u)^((n - m)/2); otherwise it is (1/u)^(n/2).
+/// If there are odd powers, one of them is taken as the nearest, because it needs the root.
 struct PowerPlan {
   struct Group {
-    std::size_t nearest = 0;     ///< the value that is the power nearest to zero
-    unsigned twice_nearest = 0;  ///< its m
+    std::size_t nearest = 0;     ///< value that is the power nearest to zero
+    unsigned twice_nearest = 0;  ///< m of that power
   };
   struct Member {
     std::size_t group = 0;
-    bool is_first = false;       ///< in the list: it makes what is common
-    bool is_of_inverse = false;  ///< starts from 1/u, not from the power nearest to zero
-    unsigned factors = 0;        ///< of 1/u that follow
+    bool is_first = false;  ///< the first of its group in the list: it forms what the group shares
+    bool is_of_inverse =
+        false;             ///< the product starts from 1/u instead of the power nearest to zero
+    unsigned factors = 0;  ///< number of factors 1/u that follow
   };
 
   explicit PowerPlan(const OperationList& list);
 
   std::vector<Group> groups;
-  std::vector<std::optional<Member>> members;  ///< by value; none for what is no such power
+  /// By value; empty for a value that is not such a power.
+  std::vector<std::optional<Member>> members;
 };
 
-/// The values of the powers of a list and their derivatives, T and Real as in SliceEvaluator.
+/// The values of the powers of a list and their derivatives. T and Real are as in SliceEvaluator.
 template <class T, class Real>
 class CommonPowers {
  public:
   explicit CommonPowers(const OperationList& list)
       : plan_(list), inverses_(plan_.groups.size(), T(1)) {}
 
-  /// Sets value i to the power of u, and where it is the first of its group the nearest one too;
-  /// `value(i)` is the place of a value.
+  /// Sets value i to its power of u. If it is the first of its group, it also sets the power
+  /// nearest to zero; `value(i)` is the storage of value i.
   template <class Value>
   void evaluate(std::size_t i, const T& u, const Real& exponent, const Value& value) {
     using std::sqrt;
@@ -53,7 +55,8 @@ class CommonPowers {
     const PowerPlan::Group& group = plan_.groups[member.group];
     T& inverse = inverses_[member.group];
     if (member.is_first) {
-      // As in power(), with the digits that the nearest has alone; 1/u = u^(-m/2) u^(m/2 - 1).
+      // As in power(), with the digits that the nearest power has alone; 1/u = u^(-m/2) u^(m/2 -
+      // 1).
       const unsigned m = group.twice_nearest;
       T rest(1);
       if (m % 2 == 1) rest = T(sqrt(u));
@@ -68,7 +71,7 @@ class CommonPowers {
     value(i) = result;
   }
 
-  /// The derivative of value i, w, by u.
+  /// The derivative of w, value i, with respect to u.
   T derivative(std::size_t i, const T& u, const Real& exponent, const T& w) const {
     const T scaled = T(exponent) * w;
     return plan_.members[i] ? T(scaled * inverses_[plan_.members[i]->group]) : T(scaled / u);

@@ -12,8 +12,8 @@
 namespace hamjet {
 
 /// A recorded function R^inputs -> R^outputs with its exact Jacobian: the terms of degree 0 and 1
-/// of the series algebra, on plain numbers. Evaluation reuses storage, so that one object serves
-/// one thread.
+/// of the series algebra, on plain numbers. An evaluation reuses the object's storage, so that each
+/// thread needs an object of its own.
 template <class Real>
 class DifferentiableFunction {
  public:

@@ -8,15 +8,15 @@
 
 namespace hamjet {
 
-/// First and second derivatives of a Hamiltonian at one point, by z = (q, p).
+/// First and second derivatives of a Hamiltonian with respect to z = (q, p), at one point.
 template <class Real>
 struct HamiltonianDerivatives {
   Vector<Real> gradient;  ///< 2n
   Matrix<Real> hessian;   ///< 2n x 2n
 };
 
-/// A Hamiltonian H: R^2n -> R on plain numbers, for methods that need one of its values at a time.
-/// Evaluation reuses storage, so that one object serves one thread.
+/// A Hamiltonian H: R^2n -> R on plain numbers, for methods that need one value at a time. An
+/// evaluation reuses the object's storage, so that each thread needs an object of its own.
 template <class Real>
 class DifferentiableHamiltonian {
  public:
@@ -27,14 +27,14 @@ class DifferentiableHamiltonian {
 
   /// The dimension 2n of phase space.
   virtual Eigen::Index dimension() const = 0;
-  /// The value H(z); not finite outside the domain of H.
+  /// The value H(z), which is not finite outside the domain of H.
   virtual Real value(const Vector<Real>& z) = 0;
   /// The derivatives of H at z; the reference is valid until the next call.
   virtual const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) = 0;
 };
 
-/// The Hamiltonian of a system; its gradient is derived from the recorded list, its Hessian is the
-/// gradient's Jacobian.
+/// The Hamiltonian of a system. Its gradient is derived from the recorded list, and its Hessian is
+/// the Jacobian of the gradient.
 template <class Real>
 class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
  public:

@@ -17,7 +17,8 @@ class Recorder;
 /// A number type that records what is done to it: a system written as a template over its number
 /// type is run once on Expressions, and the list of operations results. A constant is an Expression
 /// without a recorder; constants are folded in extended precision, equal operations are recorded
-/// once, and multiplications by 0 and 1 vanish, so what is absent from a system costs nothing.
+/// once, and multiplications by 0 and 1 vanish. A term that is absent from a system therefore costs
+/// nothing.
 class Expression {
  public:
   Expression() = default;
@@ -60,7 +61,8 @@ class Expression {
   Extended constant_ = 0;
 };
 
-/// Collects the operations done to Expressions. Not copyable: Expressions point to it.
+/// Collects the operations done to Expressions. It cannot be copied, because Expressions point to
+/// it.
 class Recorder {
  public:
   explicit Recorder(std::size_t inputs);
@@ -99,8 +101,8 @@ OperationList record(std::size_t inputs, const Function& function) {
   return recorder.finish(outputs);
 }
 
-/// Runs a list on expressions; returns the values of all its operations, re-recorded (and so
-/// simplified).
+/// Runs a list on expressions, which records its operations anew (and so simplifies them); returns
+/// the values of all operations.
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs);
 
 /// The outputs of a list run on expressions: a recorded function called inside the recording of

@@ -9,7 +9,7 @@
 
 namespace hamjet {
 
-/// What an operation does. u and v are its operands.
+/// What an operation does; u and v are its operands.
 enum class OperationCode : std::uint8_t {
   input,        ///< the i-th input
   linear,       ///< constant + sum of coefficient_k u_k (no terms: a constant)
@@ -29,7 +29,8 @@ struct LinearTerm {
   Extended coefficient;
 };
 
-/// One operation; operands are numbers of earlier operations, except that a sine names its cosine.
+/// One operation. Its operands are numbers of earlier operations, except that a sine names its
+/// cosine, which follows.
 struct Operation {
   OperationCode code = OperationCode::linear;
   std::size_t u = 0;
@@ -39,8 +40,9 @@ struct Operation {
 };
 
 /// A function R^inputs -> R^outputs as a straight list of operations on numbered values. Every
-/// integrator runs such a list, on plain numbers, packs, series or extended precision. Lists are
-/// made by recording (see expression.hpp) and are immutable; constants carry extended precision.
+/// integrator runs an operation list, on plain numbers, packs, series or extended precision. Lists
+/// are made by recording (see expression.hpp) and are immutable; constants carry extended
+/// precision.
 class OperationList {
  public:
   OperationList() = default;
@@ -51,11 +53,12 @@ class OperationList {
   std::span<const Operation> operations() const noexcept { return operations_; }
   std::span<const std::size_t> outputs() const noexcept { return outputs_; }
 
-  /// Which inputs a value depends on, one bit each.
+  /// Which inputs a value depends on, with one bit for each input.
   std::uint64_t dependencies(std::size_t value) const { return dependencies_[value]; }
   /// Whether a value is an affine function of the inputs.
   bool is_affine(std::size_t value) const { return affine_[value]; }
-  /// Whether all outputs are affine: then a flow has no terms above degree 1.
+  /// Whether all outputs are affine functions of the inputs. A flow then has no terms above degree
+  /// 1.
   bool is_linear_system() const;
   /// Number of nonlinear operations, each of which costs about one product of series.
   std::size_t nonlinear_operations() const;

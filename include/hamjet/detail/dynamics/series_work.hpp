@@ -2,11 +2,11 @@
 
 namespace hamjet {
 
-/// Products of series, counted where they are formed. A product up to degree N is N - 1 products of
-/// slices (of degree 2 to N): at degree 1 everything is linear.
+/// The work of products of series, counted where they are formed. A product up to degree N consists
+/// of N - 1 products of slices, of degrees 2 to N, because degree 1 is linear.
 struct SeriesWork {
   long slice_products = 0;
-  double multiply_adds = 0;  ///< of numbers, or of packs where the series hold packs
+  double multiply_adds = 0;  ///< multiply-adds of numbers, or of packs where the series hold packs
 
   SeriesWork& operator+=(const SeriesWork& other) {
     slice_products += other.slice_products;
@@ -15,7 +15,7 @@ struct SeriesWork {
   }
 };
 
-/// The work on packs of `lanes` lanes, counted in numbers.
+/// The work on packs of `lanes` lanes, counted in multiply-adds of numbers.
 inline SeriesWork operator*(int lanes, SeriesWork work) {
   work.slice_products *= lanes;
   work.multiply_adds *= lanes;

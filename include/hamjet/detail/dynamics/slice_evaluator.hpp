@@ -13,23 +13,23 @@
 
 namespace hamjet {
 
-/// Runs an operation list on series, one degree at a time, without knowing the inputs' slice of
-/// that degree: the heart of the implicit integrators.
+/// Runs an operation list on series, one degree at a time, before the inputs' slice of that degree
+/// is known. The implicit integrators are built on this class.
 ///
 /// With y an output, x the inputs and y_d the slice of degree d,
 ///
 ///   y_d = r_d + grad y(x_0) . x_d ,
 ///
 /// where r_d (the remainder) needs only slices below d. So each product of two series is formed
-/// once in a step, slice by slice: evaluate_remainder(d) forms the sums of products and from them
-/// all r_d; the caller solves for x_d, writes it into the inputs and calls complete(d), which adds
-/// the linear part and forms the values in between (SlicePropagation). T is a real number, or a
-/// Pack whose lanes are the stages of an implicit method.
+/// once in a step, slice by slice. evaluate_remainder(d) forms the sums of products and from them
+/// all r_d. The caller then solves for x_d, writes x_d into the inputs and calls complete(d), which
+/// adds the linear part and forms the intermediate values (SlicePropagation). T is a real number,
+/// or a Pack whose lanes are the stages of an implicit method.
 template <class T, class Real>
 class SliceEvaluator {
  public:
-  /// `working_order` is the highest degree that will be evaluated, at most the space's order. The
-  /// list must outlive the evaluator.
+  /// `working_order` is the highest degree that will be evaluated, and at most the space's order.
+  /// The list must outlive the evaluator.
   SliceEvaluator(const OperationList& list, SpacePointer space, int working_order)
       : list_(&list),
         space_(std::move(space)),
@@ -44,14 +44,13 @@ class SliceEvaluator {
     for (const Operation& o : list.operations()) constants_.push_back(convert<Real>(o.constant));
   }
 
-  /// The coefficients of the i-th input, to be written by the caller; inputs stand first in the
-  /// list.
+  /// The coefficients of the i-th input, which the caller writes; inputs stand first in the list.
   T* input(std::size_t i) { return value(i); }
   const T* input(std::size_t i) const { return value(i); }
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
-  /// The coefficients of the i-th output, to be overwritten; null where the output is one of the
-  /// inputs.
+  /// The coefficients of the i-th output, which the caller may overwrite; null where the output is
+  /// one of the inputs.
   T* mutable_output(std::size_t i) {
     const std::size_t place = list_->outputs()[i];
     return place < list_->inputs() ? nullptr : value(place);
@@ -76,7 +75,8 @@ class SliceEvaluator {
     }
   }
 
-  /// Forms the remainders r_d, d = 1 to the working order in turn, each once.
+  /// Forms the remainders r_d. It must be called once for each d = 1 to the working order, in this
+  /// order.
   void evaluate_remainder(int d) {
     if (d < 2) return;  // at degree 1 everything is linear in the inputs
     if (d == 2) propagation_.set_weights();
@@ -92,16 +92,16 @@ class SliceEvaluator {
   /// The remainders of the i-th output, where it has them; for working orders of 2 and more.
   const T* remainder(std::size_t i) const { return remainders_.data() + i * stride_; }
 
-  /// Forms all values from the remainders and the inputs' slices of degree d, which are known now.
-  /// At the working order the intermediate values are needed by nothing, and only the outputs are
-  /// formed.
+  /// Forms all values of degree d from the remainders and the inputs' slices, which the caller has
+  /// set. At the working order only the outputs are formed, because nothing needs the intermediate
+  /// values.
   void complete(int d) {
     if (d < working_order_) complete_intermediates(d);
     propagation_.complete_outputs(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
                                   remainders_.data(), d >= 2);
   }
-  /// Forms, as complete does, the values that the next degrees need alone: outputs that are
-  /// operands of nothing stay as they are.
+  /// As complete(d), but forms only the values that higher degrees need: outputs that are no
+  /// operand of another operation stay as they are.
   void complete_intermediates(int d) {
     propagation_.complete_intermediates(slices_.data(), stride_, space_->first(d),
                                         space_->first(d + 1), d >= 2);
@@ -110,8 +110,8 @@ class SliceEvaluator {
   /// The work of the products of series formed so far.
   const SeriesWork& work() const noexcept { return work_; }
 
-  /// Evaluates all degrees at once, for explicit methods, which know the inputs in full and need no
-  /// remainders.
+  /// Evaluates all degrees at once, without remainders. This is for explicit methods, which know
+  /// the inputs in full.
   void evaluate_all() {
     evaluate_constant_terms();
     for (int d = 1; d <= working_order_; ++d) {
@@ -173,8 +173,8 @@ class SliceEvaluator {
     }
   }
 
-  /// Sets the factors by which a value's slices follow from its operands', and the scale of its
-  /// sums, all values being known.
+  /// Sets the factors with which the slices of a value's operands enter its own slice, and the
+  /// scale of its sums. The constant terms of all values must be known.
   void set_linear_part(std::size_t i, const Operation& o) {
     const T& u = *value(o.u);
     const T& w = *value(i);
@@ -269,7 +269,7 @@ class SliceEvaluator {
         count_product(d);
         break;
       case OperationCode::cosine:
-        break;  // its sums were written with the sine's
+        break;  // the sums of the cosine were written with those of its sine
     }
   }
 

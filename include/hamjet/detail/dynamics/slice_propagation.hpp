@@ -14,24 +14,24 @@
 
 namespace hamjet {
 
-/// How the slices of one degree of an operation list's values hang together, which is linear. With
-/// s the sums that the nonlinear operations have formed from the slices below
+/// The linear relation between the slices of one degree of all values of an operation list. With s
+/// the sums that the nonlinear operations have formed from the slices below
 /// (slice_recurrences.hpp),
 ///
 ///   v_d = scale s + sum over the operands u of factor u_d .
 ///
-/// The scales and factors are made of constant terms. An output follows from the sums below it
+/// The scales and factors depend on constant terms alone. An output follows from the sums below it
 /// and the inputs x alone,
 ///
 ///   y_d = sum weight s + grad y . x_d ,
 ///
-/// so that nothing in between is needed for it. Gradients are found forwards through the list, for
-/// they are wanted of constant terms alone too; weights backwards (Griewank and Walther, Evaluating
-/// Derivatives, sections 3.1 and 3.2). T and Real are as in SliceEvaluator.
+/// so that an output needs no intermediate value. Gradients are accumulated forwards through the
+/// list, because constant terms alone need them too; weights are accumulated backwards (Griewank
+/// and Walther, Evaluating Derivatives, sections 3.1 and 3.2). T and Real are as in SliceEvaluator.
 template <class T, class Real>
 class SlicePropagation {
  public:
-  /// The list must outlive this object. What degrees above `working_order` need is left out.
+  /// The list must outlive this object. Only what degrees up to `working_order` need is prepared.
   SlicePropagation(const OperationList& list, int working_order)
       : list_(&list), scales_(list.operations().size(), T(Real(1))) {
     std::vector<bool> is_operand(scales_.size(), false);
@@ -50,17 +50,17 @@ class SlicePropagation {
     if (working_order >= 1) set_values(is_operand);
   }
 
-  /// The derivative of a value by one of its operands, to be written by the caller for all but
-  /// linear operations.
+  /// The derivative of a value with respect to one of its operands. The caller writes it for all
+  /// operations that are not linear.
   T& factor(std::size_t value, std::size_t operand) {
     return factors_[first_factor_[value] + operand];
   }
-  /// The scale of a nonlinear operation's sums, 1 unless the caller writes another.
+  /// The scale of a nonlinear operation's sums; 1 unless the caller writes another one.
   T& scale(std::size_t value) { return scales_[value]; }
 
-  /// sum + a b, fused wherever that is fast: left to the compiler, fusing may differ from one
-  /// inlined copy to the next, and a nominal alone would have other last bits than the same nominal
-  /// with its jet.
+  /// sum + a b, fused wherever that is fast. Left to the compiler, fusing may differ from one
+  /// inlined copy to the next, and a nominal that is integrated alone would have other last bits
+  /// than with its jet.
   static T add_product(const T& sum, const T& a, const T& b) {
 #ifdef __FP_FAST_FMA
     if constexpr (std::is_same_v<T, double>) return std::fma(a, b, sum);
@@ -88,16 +88,16 @@ class SlicePropagation {
     return gradients_[list_->outputs()[output] * list_->inputs() + input];
   }
 
-  /// Forms the weights, from the factors and scales.
+  /// Forms the weights from the factors and scales.
   void set_weights() {
     for (const Group& group : groups_) {
       with_width(group, [&]<std::size_t Outputs>(Width<Outputs>) { set_weights<Outputs>(group); });
     }
   }
 
-  /// Forms the outputs' part that the sums make (of those that have one), for monomials from
-  /// `first` to `last`: the value i stands at slices + i stride, that of an output o at remainders
-  /// + o stride.
+  /// Forms the remainders of the outputs that have one from the sums, for the monomials from
+  /// `first` to `last`. Value i stands at slices + i stride, and the remainder of output o at
+  /// remainders + o stride.
   void form_remainders(const T* slices, std::size_t stride, std::size_t first, std::size_t last,
                        T* remainders) const {
     in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
@@ -120,20 +120,21 @@ class SlicePropagation {
     });
   }
 
-  /// Puts the values in the place of the sums (if there are any at this degree), for monomials from
-  /// `first` to `last` of known inputs.
+  /// Replaces the sums (if there are any at this degree) by the values, for the monomials from
+  /// `first` to `last`, once the inputs are known.
   void complete_values(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                        bool has_sums) const {
     complete(values_, slices, stride, first, last, has_sums);
   }
-  /// Completes, as complete_values does, all values but those that are outputs and nothing else.
+  /// As complete_values, but leaves out the values that are outputs and no operand of another
+  /// operation.
   void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                               bool has_sums) const {
     complete(intermediates_, slices, stride, first, last, has_sums);
   }
 
-  /// Forms the outputs but for those that are inputs, for monomials from `first` to `last` of known
-  /// inputs, from their remainders (where there are sums at this degree).
+  /// Forms the outputs that are not inputs from their remainders (where this degree has sums), for
+  /// the monomials from `first` to `last`, once the inputs are known.
   void complete_outputs(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                         const T* remainders, bool has_sums) const {
     in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
@@ -155,26 +156,30 @@ class SlicePropagation {
   }
 
  private:
-  /// Outputs whose remainders are formed together, for each step backwards waits for the one
-  /// before. Where one is not finite, the others' remainders need not be.
+  /// Outputs whose remainders are formed together, because each step backwards through the list
+  /// waits for the one before. If one of them is not finite, the remainders of the others need not
+  /// be finite either.
   struct Group {
     std::vector<std::size_t> outputs;
-    std::vector<std::size_t> values;  ///< that they depend on, but the inputs, the later first
-    std::vector<std::size_t> sums;    ///< the nonlinear operations among them
-    std::size_t first_weight = 0;     ///< a weight for each sum and output
+    /// Values on which these outputs depend, without the inputs, the later ones first.
+    std::vector<std::size_t> values;
+    std::vector<std::size_t> sums;  ///< the nonlinear operations among these values
+    std::size_t first_weight =
+        0;  ///< index of the first weight; there is one for each sum and output
   };
   static constexpr std::size_t whole_group = 3;
 
   template <std::size_t>
   struct Width {};
   static constexpr bool is_of_numbers = sizeof(T) <= sizeof(double);
-  /// So many monomials go through the list together: their slices stay in the nearest cache, and
-  /// with 32 vector registers their sums for a group of outputs in these.
+  /// The number of monomials that go through the list together. Their slices then stay in the
+  /// nearest cache, and with 32 vector registers the sums for a group of outputs stay in registers.
   static constexpr std::size_t tile = sizeof(T) >= 512 ? 1
                                       : sizeof(T) > 64 ? 512 / sizeof(T)
                                       : is_of_numbers  ? 4
                                                        : 8;
-  /// Plain numbers fill vectors by themselves.
+  /// The number of monomials that are taken together if T is a plain number, which fills vectors
+  /// along the monomials.
   static constexpr std::size_t long_tile = is_of_numbers ? 16 : tile;
 
   template <class Run>
@@ -183,7 +188,7 @@ class SlicePropagation {
       for (; first + long_tile <= last; first += long_tile) run(Width<long_tile>{}, first);
     }
     for (; first + tile <= last; first += tile) run(Width<tile>{}, first);
-    // Of two uncoupled variables a degree has two monomials.
+    // With two uncoupled variables a degree has only two monomials.
     if constexpr (tile > 2) {
       for (; first + 2 <= last; first += 2) run(Width<2>{}, first);
     }
@@ -315,15 +320,15 @@ class SlicePropagation {
 
   const OperationList* list_;
   std::vector<T> scales_;                  ///< by value
-  std::vector<std::size_t> first_factor_;  ///< by value, and the end
+  std::vector<std::size_t> first_factor_;  ///< by value, and one entry for the end
   std::vector<std::size_t> operands_;
   std::vector<T> factors_;
-  std::vector<std::size_t> values_;         ///< that have slices, but the inputs
-  std::vector<std::size_t> intermediates_;  ///< of these all but mere outputs
-  std::vector<Group> groups_;               ///< of the outputs that are not affine
+  std::vector<std::size_t> values_;         ///< values that have slices, without the inputs
+  std::vector<std::size_t> intermediates_;  ///< the values of these that are not mere outputs
+  std::vector<Group> groups_;               ///< groups of the outputs that are not affine
   std::vector<T> weights_;
   std::vector<T> gradients_;  ///< by value and input
-  std::vector<T> adjoints_;   ///< scratch, by value and output of a group
+  std::vector<T> adjoints_;   ///< scratch space, by value and output of a group
 };
 
 }  // namespace hamjet

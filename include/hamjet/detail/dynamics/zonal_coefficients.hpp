@@ -9,8 +9,8 @@
 
 namespace hamjet {
 
-/// The zonal coefficients J_n of a gravity field, n = 2 to 20, without unit and not normalised
-/// (J_n = -C_n0 = -sqrt(2n + 1) times the normalised C_n0). A coefficient of 0 is absent.
+/// The zonal coefficients J_n of a gravity field, n = 2 to 20, dimensionless and not normalised:
+/// J_n = -C_n0 = -sqrt(2n + 1) times the normalised C_n0. A coefficient of 0 counts as absent.
 class ZonalCoefficients {
  public:
   static constexpr int lowest = 2;
@@ -24,7 +24,7 @@ class ZonalCoefficients {
     for (const auto& [n, value] : given) (*this)[n] = value;
   }
 
-  /// Takes all of them, the lowest first.
+  /// Takes all coefficients, J_2 first.
   explicit ZonalCoefficients(std::span<const double, count> values) {
     std::copy(values.begin(), values.end(), values_.begin());
   }
@@ -33,9 +33,9 @@ class ZonalCoefficients {
   double operator[](int n) const { return values_.at(static_cast<std::size_t>(n - lowest)); }
   double& operator[](int n) { return values_.at(static_cast<std::size_t>(n - lowest)); }
 
-  /// All of them, the lowest first.
+  /// All coefficients, J_2 first.
   std::span<const double, count> values() const { return values_; }
-  /// The largest n with a J_n that is not 0; 0 if no coefficient is present.
+  /// The largest n for which J_n is not 0; 0 if no coefficient is present.
   int highest_present() const {
     for (int n = highest; n >= lowest; --n) {
       if ((*this)[n] != 0) return n;

@@ -18,11 +18,12 @@ enum class TimeSystem { utc, tai, tt, gps, tdb };
 /// The time systems' names (CCSDS 502.0-B-3, annex B3), in the order of the enumeration.
 const std::vector<std::string_view>& time_system_names();
 
-/// A moment on the calendar of some time system, to the picosecond, in which a satellite moves by 8
-/// nanometres.
+/// A moment on the calendar of a time system, to the picosecond (in which a satellite moves by 8
+/// nanometres).
 struct Epoch {
   std::chrono::sys_days day;
-  std::int64_t picoseconds = 0;  ///< of the day; 86 400 s or more within a leap second of UTC
+  std::int64_t picoseconds =
+      0;  ///< since the beginning of the day; 86 400 s or more within a leap second of UTC
 
   auto operator<=>(const Epoch&) const = default;
 };
@@ -36,11 +37,11 @@ std::optional<Epoch> parse_epoch(std::string_view text);
 /// An epoch as YYYY-MM-DDThh:mm:ss with 12 digits after the point.
 std::string format_epoch(const Epoch& epoch);
 
-/// The moment `seconds` later (earlier, if negative), rounded to a picosecond, every day with 86
-/// 400 s. No value outside of the years 1 to 9999. `epoch` must not be within a leap second.
+/// The moment `seconds` later (earlier, if negative), rounded to a picosecond; every day counts 86
+/// 400 s. No value outside the years 1 to 9999. `epoch` must not be within a leap second.
 std::optional<Epoch> later(const Epoch& epoch, const Extended& seconds);
 
-/// Seconds from one moment to another, to binary64, every day with 86 400 s.
+/// Seconds from one moment to another, to binary64; every day counts 86 400 s.
 inline double seconds_between(const Epoch& first, const Epoch& last) {
   return 86400.0 * static_cast<double>((last.day - first.day).count()) +
          1e-12 * static_cast<double>(last.picoseconds - first.picoseconds);
@@ -50,8 +51,8 @@ inline double seconds_between(const Epoch& first, const Epoch& last) {
 /// in 1972 to the last one known here, at the end of 2016. Source: IERS Bulletin C.
 const std::vector<std::chrono::sys_days>& days_with_leap_second();
 
-/// The first day whose leap second lies between two moments of UTC, so that days of 86 400 s do not
-/// lead from one to the other. No value if there is none.
+/// The first day whose leap second lies between two moments of UTC, so that counting 86 400 s per
+/// day does not lead from one to the other. No value if there is none.
 std::optional<std::chrono::sys_days> leap_second_between(const Epoch& first, const Epoch& last);
 
 }  // namespace hamjet::io

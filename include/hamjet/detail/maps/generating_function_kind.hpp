@@ -10,8 +10,8 @@ namespace hamjet {
 /// Which variables a generating function takes: one of each pair (q_i, p_i) of the final state and
 /// one of each pair of the initial state, 2^n x 2^n kinds in all.
 ///
-/// Notation: final choice, hyphen, initial choice, a letter per degree of freedom: `qqq-qqq` is F1,
-/// `qqq-ppp` F2, `ppp-qqq` F3, `ppp-ppp` F4, `qpq-qqp` a mixed one.
+/// The name is the final choice, a hyphen and the initial choice, with one letter per degree of
+/// freedom: `qqq-qqq` is F1, `qqq-ppp` F2, `ppp-qqq` F3, `ppp-ppp` F4, `qpq-qqp` a mixed one.
 struct GeneratingFunctionKind {
   std::vector<bool> final_is_momentum;    ///< n entries: whether p_i is chosen
   std::vector<bool> initial_is_momentum;  ///< n entries: whether p0_i is chosen

@@ -7,7 +7,7 @@ namespace hamjet::io {
 
 /// A file of a report before it is written.
 struct ReportFile {
-  std::filesystem::path path;  ///< relative to the output directory
+  std::filesystem::path path;  ///< path relative to the output directory
   std::string content;
 };
 

@@ -7,7 +7,7 @@
 namespace hamjet {
 namespace detail {
 
-/// Calls `visit` with each of the names, which commas separate, and the member in the same place.
+/// Calls `visit` with each of the comma-separated names and the member at the same place.
 template <class Visit, class... Members>
 void visit_named(std::string_view names, const Visit& visit, Members&... members) {
   const auto next_name = [&names] {
@@ -22,8 +22,8 @@ void visit_named(std::string_view names, const Visit& visit, Members&... members
 }  // namespace detail
 
 /// Defines for_each_field(settings, visit), which calls visit(name, member) for every member of a
-/// `Settings`, const or not, in the order of the structure. The list must name all of them in that
-/// order: a structured binding to fewer names than there are members is refused by the compiler.
+/// `Settings`, const or not, in the order of the structure. The list must name all members in that
+/// order; if a name is missing, the structured binding does not compile.
 #define HAMJET_FIELDS(Settings, ...)                          \
   template <class Given, class Visit>                         \
   requires std::same_as<std::remove_const_t<Given>, Settings> \
@@ -32,7 +32,7 @@ void visit_named(std::string_view names, const Visit& visit, Members&... members
     detail::visit_named(#__VA_ARGS__, visit, __VA_ARGS__);    \
   }
 
-/// Settings whose members for_each_field knows.
+/// Settings for whose members for_each_field is defined.
 template <class Settings>
 concept HasFields = requires(Settings& settings) {
   for_each_field(settings, [](std::string_view, auto&) {});

@@ -10,14 +10,14 @@ namespace hamjet {
 
 /// A velocity change of a plan, along the axes of the scene's frame at its time.
 struct Impulse {
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   Eigen::Vector3d change_m_s = Eigen::Vector3d::Zero();
 };
 
-/// The magnitude of the primer vector at a time: the cost that a small velocity change there saves
-/// or takes, of its own magnitude. (Lawden, Optimal Trajectories for Space Navigation, 1963.)
+/// The magnitude of the primer vector at a time: a small velocity change there saves or costs this
+/// multiple of its own magnitude. (Lawden, Optimal Trajectories for Space Navigation, 1963.)
 struct PrimerMagnitude {
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   double magnitude = 0;
 };
 
@@ -27,61 +27,65 @@ struct PrimerHistory {
   std::vector<PrimerMagnitude> magnitudes;
   PrimerMagnitude largest;
 
-  /// Whether more than the rounding of the flow tells that another impulse helps.
+  /// Whether the magnitude exceeds 1 by more than rounding, so that another impulse helps.
   bool calls_for_impulse() const { return largest.magnitude > 1 + 1e-6; }
 };
 
-/// From which way a plan of impulses began.
+/// The transfer from which a plan of impulses was developed.
 enum class PlanOrigin {
-  linear_theory,  ///< about the chief
-  two_impulses,   ///< of the transfer
+  linear_theory,  ///< the linear theory about the chief
+  two_impulses,   ///< the transfer with two impulses
   coasting,       ///< a transfer whose first impulse waits
   waypoints,
-  revolutions,  ///< other ones than the chief's
+  revolutions,  ///< a transfer with another number of revolutions than the chief's
 };
 
-/// As many impulses, at such times, that their sum of magnitudes is the least that was found with
-/// the same start, end and arrival.
+/// Impulses, of free number and times, whose sum of magnitudes is the least that was found for the
+/// same start, end and arrival time.
 struct ImpulsePlan {
-  double duration = 0;  ///< canonical
+  double duration = 0;  ///< in canonical units
   PlanOrigin origin = PlanOrigin::linear_theory;
-  std::vector<Impulse> impulses;  ///< flown; in the order of time
-  /// No impulses in the same time do what these do for less, to first order about the way of these;
-  /// absent where flights did not confirm that the linear theory holds so far.
+  std::vector<Impulse> impulses;  ///< flown impulses, in the order of time
+  /// A bound: to first order about this trajectory, no impulses in the same time do the same for
+  /// less. Absent if flights did not confirm that the linear theory holds.
   std::optional<double> lower_bound_m_s;
-  /// Where the scene's largest impulse divides others: the time between those at which impulses
-  /// may be, canonical. The bound is then that of such impulses, none above the largest.
+  /// If the scene's largest impulse divides impulses into several, the time between possible
+  /// impulses, in canonical units. The bound is then that of impulses at these times, none above
+  /// the largest.
   std::optional<double> spacing;
-  /// Of that bound: at most 1, but where an impulse is as large as it may be.
+  /// Primer vector that belongs to the bound: at most 1, except where an impulse has its largest
+  /// allowed size.
   std::vector<PrimerMagnitude> primer;
-  int flights = 0;  ///< that corrected the linear answers
-  /// Where the deputy that flies the plan comes to, beside the wanted end.
+  int flights = 0;  ///< number of flights that corrected the linear answers
+  /// Distance between the wanted end and the place that the deputy reaches with this plan.
   double miss_m = 0;
   double velocity_miss_m_s = 0;
-  std::string failure;    ///< not empty: the plan was not brought to its end, and why
-  std::string forbidden;  ///< not empty: the scene's limits do not allow it, and why
+  std::string failure;    ///< if not empty, the reason why the plan does not reach its end
+  std::string forbidden;  ///< if not empty, the reason why the scene's limits forbid the plan
 
   double total_change_m_s() const;
 };
 
 /// The least cost for one of the listed times, in the linear theory about the chief.
 struct LeastChange {
-  double time = 0;                   ///< canonical
-  std::optional<double> change_m_s;  ///< proved to be the least at the times of a coarse grid
-  std::optional<double> flown_m_s;   ///< the same impulses, corrected by flying; absent: not flown
-  std::string failure;               ///< not empty: there is none, and why
-  /// The solver's answer did not prove to be one: the least of all times may be that of this one.
+  double time = 0;                   ///< in canonical units
+  std::optional<double> change_m_s;  ///< least cost, proved at the times of a coarse grid
+  /// Cost of the same impulses after correction by flying; absent if not flown.
+  std::optional<double> flown_m_s;
+  std::string failure;  ///< if not empty, the reason why there is no least cost
+  /// The solver's answer was not proved to be the least, so that the true least of all times may
+  /// belong to this time.
   bool is_unproved = false;
 };
 
-/// What `impulses = "optimal"` asks for.
+/// The results of `impulses = "optimal"`.
 struct OptimalImpulses {
-  std::vector<LeastChange> by_time;  ///< for some of the listed times, the last among them
-  std::optional<ImpulsePlan> plan;   ///< the least that was flown
-  std::string failure;               ///< not empty: there is no plan, and why
+  std::vector<LeastChange> by_time;  ///< for some of the listed times, including the last
+  std::optional<ImpulsePlan> plan;   ///< the flown plan of least cost
+  std::string failure;               ///< if not empty, the reason why there is no plan
 
   bool is_found() const { return plan && plan->failure.empty() && plan->forbidden.empty(); }
-  /// Whether no time was left out because the solver failed.
+  /// Whether the solver succeeded at every time.
   bool is_proved() const;
 };
 

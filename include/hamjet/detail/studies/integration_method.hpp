@@ -9,7 +9,7 @@
 
 namespace hamjet {
 
-/// The integrators of flow jets. What distinguishes them is in MethodDescription.
+/// The integrators of flow jets. MethodDescription describes their differences.
 enum class IntegrationMethod {
   gauss,
   stormer,
@@ -20,7 +20,7 @@ enum class IntegrationMethod {
   cvode_bdf,
 };
 
-/// One table `[[integrator]]`. Which of the keys a method has is in its MethodDescription.
+/// One table `[[integrator]]`. MethodDescription says which of the keys a method has.
 struct IntegratorSettings {
   std::string label = {};
   IntegrationMethod method = IntegrationMethod::gauss;
@@ -29,8 +29,9 @@ struct IntegratorSettings {
   double beta = 0.25;
   bool compensated_summation = true;
   std::optional<double> step_canonical =
-      {};                                ///< fixed steps (positive; the sign follows the duration)
-  std::optional<double> tolerance = {};  ///< adaptive steps; exactly one of the two is set
+      {};  ///< fixed steps (positive; the sign follows the duration)
+  std::optional<double> tolerance =
+      {};  ///< adaptive steps; exactly one of step and tolerance is set
   std::optional<double> require_relative_error =
       {};  ///< check: largest relative error over all degrees
   std::optional<double> require_symplecticity = {};  ///< check: largest scaled symplecticity defect

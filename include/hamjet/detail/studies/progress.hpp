@@ -5,7 +5,7 @@
 
 namespace hamjet {
 
-/// Told how far the work is: what is being done, and the fraction of it in 0..1. May throw to stop.
+/// Called with the present task and the fraction of it that is done, in 0..1. It may throw to stop.
 using ProgressCallback = std::function<void(const std::string& task, double fraction)>;
 
 }  // namespace hamjet

@@ -8,13 +8,13 @@
 
 namespace hamjet {
 
-/// What a run checks of its own result; see self_checks.
+/// The checks that a run makes of its own result; see self_checks.
 enum class SelfCheckName {
   finite,          ///< every number of the result is finite
   convergence,     ///< the equations of implicit methods were solved to round-off in every step
   step_error,      ///< the method's own estimate of its local error
   energy,          ///< the energy along the nominal
-  symplecticity,   ///< Poisson brackets of the linear part, of symplectic methods
+  symplecticity,   ///< for symplectic methods, Poisson brackets of the linear part
   inversion,       ///< inverted maps composed with the map are the identity
   surface,         ///< the nominal's smallest distance from the centre
   error_estimate,  ///< the error of every degree, from independent runs along directions
@@ -33,10 +33,10 @@ inline std::string_view name_of(SelfCheckName name) {
 /// One key of the table `[checks]`.
 struct SelfCheckSetting {
   bool is_on = true;
-  std::optional<double> limit;  ///< in place of the one that self_checks chooses
+  std::optional<double> limit;  ///< limit that replaces the one that self_checks chooses
 };
 
-/// Table `[checks]`: all are on unless a scene says otherwise.
+/// Table `[checks]`: all checks are on unless a scene turns them off.
 class SelfCheckSettings {
  public:
   SelfCheckSetting& operator[](SelfCheckName name) {

@@ -13,19 +13,19 @@ namespace hamjet {
 
 /// Table `[deputy]`: the second satellite at the start.
 struct DeputySettings {
-  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of the state, and of its motion
+  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of the state, and of its motion
   RelativeState start;
 };
 
-/// A deputy at its arrival, relative to where its chief is then: a state along the axes of the
-/// frame, or what takes its place.
+/// A deputy at its arrival, relative to the chief at that time: a state along the axes of the
+/// frame, or one of the two members below in its place.
 struct ArrivalState : RelativeState {
   ArrivalState() = default;
   ArrivalState(const RelativeState& state) : RelativeState(state) {}
   ArrivalState(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity)
       : RelativeState{position, velocity} {}
 
-  /// Six numbers of a form that is no linear function of the deviation (DeputyCoordinates).
+  /// Six numbers of a form that is a nonlinear function of the deviation (DeputyCoordinates).
   struct InForm {
     DeputyForm form = DeputyForm::curvilinear;
     std::array<double, 6> numbers{};
@@ -35,79 +35,82 @@ struct ArrivalState : RelativeState {
   std::optional<std::array<double, 6>> own_state = {};
 
   bool is_along_axes() const { return !in_form && !own_state; }
-  /// The canonical deviation (dq, dp) from a chief of an orbit with mu = 1. Throws
-  /// Error(numerical) where the form is not defined at this chief.
+  /// The canonical deviation (dq, dp) from a chief on an orbit with mu = 1. Throws Error(numerical)
+  /// if the form is not defined at this chief.
   std::vector<double> deviation(const std::vector<double>& chief, const MetricUnits& units,
                                 RelativeFrame frame) const;
 };
 
-/// A place on the way of a transfer, along the axes of its frame at that time.
+/// A place through which a transfer passes, along the axes of its frame at that time.
 struct Waypoint {
-  double time = 0;  ///< canonical
+  double time = 0;  ///< in canonical units
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
 };
 
-/// How many impulses a transfer may have.
+/// The number of impulses that a transfer may have.
 enum class TransferImpulses {
-  two,      ///< at the start and at the end
-  optimal,  ///< beside these the least, as many and when it likes
+  two,      ///< one at the start and one at the end
+  optimal,  ///< in addition, impulses of least cost, of free number and times
 };
 
 /// Table `[transfer]`: from one relative state to another in given times.
 struct TransferSettings {
-  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< of both ends
-  /// Velocities are those before the first impulse and after the second; absent ones are zero, at
-  /// rest in the frame.
+  RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of both ends
+  /// Velocities are those before the first impulse and after the second one. A velocity that is
+  /// absent is zero: at rest in the frame.
   RelativeState start;
   ArrivalState end;
-  std::vector<double> times;  ///< canonical, moving away from 0; none is 0
-  /// F1..F4, letters, or auto: the one whose polynomials decay fastest, with hysteresis.
+  std::vector<double> times;  ///< in canonical units, moving away from 0; none is 0
+  /// F1..F4, letters, or auto: the kind whose polynomials decay fastest, with hysteresis.
   std::string kind = "auto";
   double tolerance_m = 1;  ///< a larger miss of the highest order is marked
-  /// Correct all answers by flying until the miss is below `refined_miss_m`; those beyond the
-  /// tolerance, away from singularities, are corrected in any case.
+  /// Whether to correct all answers by flying until the miss is below `refined_miss_m`. Answers
+  /// beyond the tolerance that are away from singularities are corrected in any case.
   bool refine = false;
   double refined_miss_m = 1e-3;
-  /// Answers nearer than this to a time at which positions cannot be commanded are marked;
-  /// canonical.
+  /// Answers nearer than this, in canonical time, to a time at which positions cannot be commanded
+  /// are marked.
   double singular_margin = 0;
   TransferImpulses impulses = TransferImpulses::two;
-  std::optional<double> budget_m_s;           ///< times are sought that take no more than this
-  std::optional<double> largest_impulse_m_s;  ///< that a transfer may have
-  /// Least time between optimal impulses that this divides, canonical; absent: a 72nd of a period.
+  std::optional<double> budget_m_s;  ///< if given, spans of time are sought in which a transfer
+                                     ///< costs no more than this
+  std::optional<double> largest_impulse_m_s;  ///< largest impulse that a transfer may have
+  /// If the largest impulse divides optimal impulses, the least time between the parts, in
+  /// canonical units; absent for a 72nd of a period.
   std::optional<double> impulse_gap;
-  /// Semi-axes along the chief's R, T, N of an ellipsoid about it that the deputy keeps out of.
+  /// Semi-axes, along the chief's R, T, N, of an ellipsoid about the chief that the deputy must not
+  /// enter.
   std::optional<Eigen::Vector3d> keep_out_m;
-  /// The first of two impulses may wait so long for the least change, canonical; absent: it is not
-  /// looked for.
+  /// The longest time, in canonical units, that the first of two impulses may wait for a cheaper
+  /// transfer; absent if this is not sought.
   std::optional<double> longest_coast;
-  /// By how many whole revolutions more than the chief a deputy is to make, for transfers that are
-  /// far from it; empty: they are not looked for.
+  /// Numbers of whole revolutions by which a deputy may exceed the chief, for transfers that lead
+  /// far from the chief; empty if these are not sought.
   std::vector<int> revolutions;
-  std::vector<Waypoint> waypoints;  ///< moving away from 0; empty: none
-  bool strict = false;              ///< an answer beyond the tolerance fails the command
+  std::vector<Waypoint> waypoints;  ///< places to pass, at times moving away from 0; may be empty
+  bool strict = false;              ///< an answer beyond the tolerance makes the command fail
 };
 
-/// Table `[validity]`: up to what separation a polynomial's miss stays below a tolerance.
+/// Table `[validity]`: the separation up to which a polynomial's miss stays below a tolerance.
 struct ValiditySettings {
   double tolerance_m = 1;
-  std::vector<double> times;  ///< canonical, moving away from 0; none is 0
-  /// Semi-axes of the ellipsoid of positions relative to its largest, along the axes of the frame;
-  /// the velocities, of the frame's kind, fill the same ellipsoid times the mean motion.
+  std::vector<double> times;  ///< in canonical units, moving away from 0; none is 0
+  /// Semi-axes of the ellipsoid of positions along the axes of the frame, relative to the largest.
+  /// The velocities, of the frame's kind, fill the same ellipsoid times the mean motion.
   std::vector<double> semi_axes = {1, 1, 1};
-  int samples = 40;  ///< deputies that are flown
+  int samples = 40;  ///< number of deputies that are flown
   RelativeFrame frame = RelativeFrame::rtn_rotating;
 };
 
-/// What a box is about: a place at which the deputy is held at rest, or a deputy of `[bounded]`.
+/// The deputy in a box: one held at rest at a place, or a deputy of `[bounded]`.
 enum class BoxReference { rest, member };
 
-/// Table `[bounded.box]`: a box along the chief's R, T and N that a deputy is kept in by impulses.
+/// Table `[bounded.box]`: a box along the chief's R, T and N in which impulses keep a deputy.
 struct BoxSettings {
-  std::optional<Eigen::Vector3d> half_widths_m;  ///< none: there is no box
+  std::optional<Eigen::Vector3d> half_widths_m;  ///< absent if there is no box
   BoxReference reference = BoxReference::member;
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of `rest`
-  /// Times that a return may take, in the chief's nodal periods at its start.
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< place of a deputy at rest
+  /// Durations that a return may have, in units of the chief's nodal period at its start.
   std::vector<double> return_orbits = {0.02, 0.04, 0.06, 0.08, 0.1, 0.12, 0.15,
                                        0.2,  0.3,  0.4,  0.6,  0.7, 0.8,  0.9};
   double days = 10;
@@ -116,31 +119,33 @@ struct BoxSettings {
 /// Table `[bounded]`: deputies that stay with the chief for long.
 struct BoundedSettings {
   std::vector<double> sizes_m = {1e3, 1e4, 1e5, 1e6};  ///< largest distances over a revolution
-  /// Direction in which the eccentricity vector differs: at 0 the eccentricity grows, at 90 degrees
-  /// the pericentre turns ahead.
+  /// Direction of the difference of the eccentricity vectors: at 0 degrees the eccentricity grows,
+  /// at 90 degrees the pericentre turns ahead.
   double phase_deg = 90;
-  double cross_track = 0.5;  ///< by the node's difference, of the size; below 1
-  double along_track = 0;    ///< mean place ahead of the chief, of the size; between -1 and 1
-  int revolutions = 1000;    ///< over which drifts are the chief's, and are flown
-  bool refine = true;        ///< also by Newton's method on flown drifts
+  double cross_track = 0.5;  ///< part of the size that the difference of the nodes makes; below 1
+  double along_track =
+      0;  ///< mean place ahead of the chief, as a fraction of the size; between -1 and 1
+  int revolutions =
+      1000;  ///< number of revolutions over which the drifts equal the chief's and that are flown
+  bool refine = true;  ///< whether to refine by Newton's method on flown drifts
   BoxSettings box;
 };
 
-/// A function of the state whose zeros are events: the height over the equator, that over a plane,
-/// the distance from the centre less a radius, the product of position and velocity.
+/// A function of the state whose zeros are events: the height above the equator, the height above a
+/// plane, the distance from the centre minus a radius, or the product of position and velocity.
 enum class EventSurface { equator, plane, distance, apsis };
 /// Whether the function grows or falls with time at the event.
 enum class EventDirection { either, rising, falling };
 
-/// Table `[event]`: a condition along the orbit, whose time and state are wanted as polynomials.
+/// Table `[event]`: a condition along the orbit, whose time and state are computed as polynomials.
 struct EventSettings {
   EventSurface surface = EventSurface::equator;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of a plane, inertial
-  double offset_km = 0;    ///< of a plane, along its normal from the centre
-  double distance_km = 0;  ///< of `distance`
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< normal of a plane, in inertial axes
+  double offset_km = 0;    ///< distance of a plane from the centre, along its normal
+  double distance_km = 0;  ///< radius for `distance`
   EventDirection direction = EventDirection::either;
-  int number = 1;  ///< among those that the chief meets after its start
-  /// Sizes of the deviations in position with which deputies are flown.
+  int number = 1;  ///< number of the event, among those that the chief meets after its start
+  /// Sizes of the position deviations of the deputies that are flown.
   std::vector<double> amplitudes_m = {1, 10, 100, 1e3, 1e4};
 };
 
@@ -155,7 +160,8 @@ struct AssignmentSettings {
   std::vector<RelativeState> deputies;
   std::vector<ArrivalState> slots;
   AssignmentTime time = AssignmentTime::per_pair;
-  std::optional<double> keep_apart_m;  ///< that deputies on their ways may not come nearer than
+  /// Least distance that deputies must keep from each other on their ways.
+  std::optional<double> keep_apart_m;
 };
 
 }  // namespace hamjet

@@ -9,58 +9,59 @@
 
 namespace hamjet {
 
-/// The way from one of a plan's impulses to the next.
+/// The part of a plan between two successive impulses.
 struct WaypointLeg {
-  double start = 0;  ///< canonical time
+  double start = 0;  ///< in canonical time
   double end = 0;
-  int flights = 0;    ///< that it took to find it
-  double miss_m = 0;  ///< of the place at its end, flown with the full equations of motion
-  /// Where the primer vector of the leg, along the impulses at its ends, is the largest: above 1 a
-  /// further impulse there makes the plan cheaper, the places at both ends kept. Absent where an
-  /// impulse is zero, or positions cannot be commanded.
+  int flights = 0;    ///< number of flights that the search took
+  double miss_m = 0;  ///< miss of the place at its end, flown with the full equations of motion
+  /// The point of the leg at which the primer vector, which is along the impulses at the ends, is
+  /// largest. Above 1, a further impulse there makes the plan cheaper while the places at both ends
+  /// stay. Absent if an impulse is zero, or if positions cannot be commanded.
   std::optional<PrimerMagnitude> primer;
 };
 
 /// A transfer through the scene's waypoints, with an impulse at the start, at each of them and at
 /// the end.
 struct WaypointPlan {
-  double duration = 0;            ///< canonical
-  std::vector<Impulse> impulses;  ///< one more than there are legs
+  double duration = 0;            ///< in canonical units
+  std::vector<Impulse> impulses;  ///< one impulse more than there are legs
   std::vector<WaypointLeg> legs;
-  std::string forbidden;  ///< not empty: the scene's limits do not allow it, and why
+  std::string forbidden;  ///< if not empty, the reason why the scene's limits forbid the plan
 
   double total_change_m_s() const;
 };
 
-/// What `[[transfer.waypoint]]` asks for.
+/// The results of `[[transfer.waypoint]]`.
 struct WaypointTransfers {
-  std::vector<WaypointPlan> plans;       ///< for the transfer times behind the last waypoint
-  std::optional<std::size_t> best_plan;  ///< the least of those that are allowed
-  std::string failure;                   ///< not empty: there is none, and why
+  std::vector<WaypointPlan> plans;       ///< for the transfer times after the last waypoint
+  std::optional<std::size_t> best_plan;  ///< the cheapest plan among those that are allowed
+  std::string failure;                   ///< if not empty, the reason why there is no plan
 };
 
-/// What `longest_coast_s` asks for: two impulses of which the first waits while the deputy drifts.
+/// The result of `longest_coast_s`: a transfer with two impulses of which the first waits while the
+/// deputy drifts.
 struct CoastingTransfer {
-  std::optional<WaypointPlan>
-      plan;             ///< the least that was flown; its only leg begins after the wait
-  std::string failure;  ///< not empty: there is none, and why
+  /// The cheapest flown plan; its only leg begins after the wait.
+  std::optional<WaypointPlan> plan;
+  std::string failure;  ///< if not empty, the reason why there is no plan
 };
 
-/// A transfer of two impulses that makes another number of revolutions than its chief, or as many
-/// on the other of two orbits, so that the polynomials about the chief do not reach it.
+/// A transfer with two impulses that makes another number of revolutions than its chief, or the
+/// same number on the other of two orbits. The polynomials about the chief do not reach it.
 struct RevolutionTransfer {
-  double time = 0;         ///< canonical
-  int difference = 0;      ///< of the whole revolutions from those of the chief's own way
-  bool is_higher = false;  ///< of both orbits that make them, that of the longer period
-  WaypointPlan plan;       ///< of one leg
-  std::string failure;     ///< not empty: it was not found, and why
+  double time = 0;         ///< in canonical units
+  int difference = 0;      ///< number of whole revolutions more than the chief makes
+  bool is_higher = false;  ///< of the two orbits with this number, the one of the longer period
+  WaypointPlan plan;       ///< plan with one leg
+  std::string failure;     ///< if not empty, the reason why the transfer was not found
 };
 
-/// What `revolutions` asks for.
+/// The results of `revolutions`.
 struct OtherRevolutions {
-  std::vector<RevolutionTransfer> transfers;  ///< for each transfer time and each orbit there is
-  std::optional<std::size_t> best;            ///< the least of those that are allowed
-  std::string failure;                        ///< not empty: there is none, and why
+  std::vector<RevolutionTransfer> transfers;  ///< for each transfer time and each existing orbit
+  std::optional<std::size_t> best;  ///< the cheapest transfer among those that are allowed
+  std::string failure;              ///< if not empty, the reason why there is none
 };
 
 }  // namespace hamjet

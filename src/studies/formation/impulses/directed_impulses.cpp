@@ -96,7 +96,7 @@ bool DirectedImpulses::add_directions() {
   std::vector<ChosenImpulse> added;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (!(all[k] > worth)) continue;
-    // Without a limit the best of neighbouring times will do.
+    // Without a limit of impulses, only the best of neighbouring times is added.
     const bool is_maximum =
         (k == 0 || all[k] >= all[k - 1]) && (k + 1 == all.size() || all[k] >= all[k + 1]);
     if (is_limited_ || is_maximum) added.push_back({k, (effects_[k].transpose() * y).normalized()});

@@ -8,30 +8,30 @@
 
 namespace hamjet {
 
-/// The linear program of impulses along given directions, which approximates that of all
-/// directions: with x_kj of the unit vector u_kj at the time k, in units of the limit if there is
-/// one,
+/// The linear program of impulses along given directions, which approximates the problem with free
+/// directions. With x_kj the size of the impulse along the unit vector u_kj at the time k, in units
+/// of the limit if there is one,
 ///
 ///   sum_kj B_k u_kj x_kj = share change,    with a limit sum_j x_kj <= 1 for all k.
 ///
-/// It begins with the axes of all times and grows by the directions of primer vectors.
+/// The program begins with the axes at all times and grows by the directions of primer vectors.
 class DirectedImpulses {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-  /// The effects must outlive it. Without a limit, `most` is infinite, the share is all.
+  /// The effects must outlive this object. Without a limit, `most` is infinite and the share is 1.
   DirectedImpulses(const std::vector<ImpulseEffect>& effects, const Vector6& change, double most);
 
-  /// The largest share of the change, all at most, that impulses below the limit make.
+  /// The largest fraction of the change, at most 1, that impulses below the limit can make.
   double solve_share();
-  /// After that: the least sum that makes all of the change.
+  /// After solve_share: the least sum that makes all of the change.
   void solve_sum();
 
-  /// Of the last of these: B_k^T y is the primer vector at the time k.
+  /// The multipliers y of the last solution: B_k^T y is the primer vector at the time k.
   Vector6 costate() const;
   std::vector<ChosenImpulse> impulses() const;
-  /// Adds the primer vector's directions where it does more than it costs. False if it does so
-  /// nowhere.
+  /// Adds the primer vector's directions where they gain more than they cost. Returns false if
+  /// there are none.
   bool add_directions();
 
  private:
@@ -41,9 +41,10 @@ class DirectedImpulses {
 
   const std::vector<ImpulseEffect>& effects_;
   bool is_limited_;
-  double unit_;                            ///< of the impulses
-  double cost_ = 1;                        ///< of an impulse: 0 while the share is what counts
-  std::vector<ChosenImpulse> directions_;  ///< of the columns behind the share's
+  double unit_;      ///< unit of the impulses
+  double cost_ = 1;  ///< cost of an impulse; 0 while the share is maximised
+  /// Directions of the columns that follow that of the share.
+  std::vector<ChosenImpulse> directions_;
   LinearProgram program_;
 };
 

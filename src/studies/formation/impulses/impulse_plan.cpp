@@ -26,14 +26,14 @@ bool OptimalImpulses::is_proved() const {
 
 namespace {
 
-/// Impulses that lead to the scene's end, whoever found them.
+/// Impulses that lead to the scene's end, from any method.
 struct KnownWay {
   PlanOrigin origin = PlanOrigin::linear_theory;
   double duration = 0;
   std::vector<Impulse> impulses;
 };
 
-/// The least of each kind of way that the scene allows.
+/// For each kind of transfer, the cheapest one that the scene allows.
 std::vector<KnownWay> known_ways(const TransferResult& result) {
   std::vector<KnownWay> ways;
   const auto add_point = [&](const TransferPoint& point) {
@@ -60,7 +60,7 @@ std::vector<KnownWay> known_ways(const TransferResult& result) {
   return ways;
 }
 
-/// What a plan may begin from.
+/// Impulses from which a plan may start.
 struct Start {
   PlanOrigin origin = PlanOrigin::linear_theory;
   PlannedTransfer transfer;
@@ -92,7 +92,7 @@ class PlanSearch {
     if (progress_) progress_(what, static_cast<double>(k) / static_cast<double>(count));
   }
 
-  /// The linear theory about the chief, on a coarse grid.
+  /// Applies the linear theory about the chief on a coarse grid.
   void find_by_time() {
     const std::vector<double> times = some_times(scene_.transfer->times, 24);
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -113,7 +113,7 @@ class PlanSearch {
     }
   }
 
-  /// Of the time of the least cost, the shortest of those that cost no more than a thousandth more.
+  /// Plans for the shortest of the times whose cost is at most a thousandth above the least cost.
   void plan_for_least() {
     std::optional<double> least;
     for (const LeastChange& one : optimal_.by_time) {
@@ -126,7 +126,7 @@ class PlanSearch {
         });
     attempt([&] {
       const PlannedTransfer planned = transfer(best->time);
-      // Nobody needs impulses who comes there by himself.
+      // A deputy that arrives by itself needs no impulses.
       FlownImpulses flown = planned.corrected({});
       if (!flown.failure.empty()) {
         const LinearImpulses linear = planned.by_linear_theory();
@@ -152,7 +152,7 @@ class PlanSearch {
     return start.transfer.metres_per_second(start.flown.impulses.sum());
   }
 
-  /// Whether flights cost what the linear theory said, and no other way costs less.
+  /// Whether flights cost what the linear theory predicts, and no other transfer costs less.
   bool theory_holds() const {
     constexpr double disagreement = 1e-2;
     if (!optimal_.is_found()) return false;
@@ -211,7 +211,7 @@ class PlanSearch {
   const LinearFlow& flow_;
   const ProgressCallback& progress_;
   std::vector<std::optional<LinearImpulses>> coarse_;  ///< for each of the times
-  double linear_m_s_ = 0;                              ///< of the plan of the linear theory
+  double linear_m_s_ = 0;                              ///< sum of the linear theory's plan
   std::list<Start> starts_;
   OptimalImpulses optimal_;
 };

@@ -7,15 +7,15 @@
 
 namespace hamjet {
 
-/// The primer vector of a transfer with two impulses, on the linear flow; absent where the flow's
-/// positions cannot be commanded, or an impulse is zero.
+/// The primer vector of a transfer with two impulses, on the linear flow; absent if positions
+/// cannot be commanded in this flow, or if an impulse is zero.
 std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedProblem& problem,
                                             const LinearFlow& flow, const TransferPoint& point);
 
 /// The least impulses for some of the scene's transfer times in the linear theory about the chief,
-/// and the plan for the best of them, flown. Where that theory is seen not to hold, its impulses
-/// for the other times are flown too, and the plan begins from the least of these and of the ways
-/// that `others` found, so that it costs no more than any.
+/// and the flown plan for the best of them. If the flights show that this theory does not hold, its
+/// impulses for the other times are flown too. The plan then starts from the cheapest of these and
+/// of the transfers in `others`, so that it costs no more than any of them.
 OptimalImpulses optimal_impulses(const Scene& scene, const ComputedProblem& problem,
                                  const LinearFlow& flow, const TransferResult& others,
                                  const ProgressCallback& progress);

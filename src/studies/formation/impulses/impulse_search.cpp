@@ -67,7 +67,7 @@ std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid, const Vector6
 
 namespace {
 
-/// The grid with finer times about those at which the primer is a local maximum of almost 1.
+/// The grid with finer times added about those at which the primer has a local maximum close to 1.
 ImpulseGrid refined(const MatrixAt& at, const ImpulseGrid& grid, const LeastImpulses& least,
                     double nearness) {
   constexpr std::size_t most_maxima = 64;
@@ -104,8 +104,8 @@ ImpulseGrid refined(const MatrixAt& at, const ImpulseGrid& grid, const LeastImpu
 ImpulseOptimum search_impulses(const ImpulseGrid& coarse, const MatrixAt& at,
                                const Vector6& change) {
   ImpulseOptimum optimum{coarse, least_impulses(coarse.effects, change), {}};
-  // Between the times of a grid the primer may exceed 1, and so much less an impulse there would
-  // cost: by 1e-3 for the coarse one, 1e-8 for the finest.
+  // Between the times of a grid the primer may exceed 1, and an impulse there would cost less by
+  // this excess: 1e-3 for the coarse grid, 1e-8 for the finest.
   for (const double nearness : {1e-2, 2e-4, 4e-6}) {
     optimum.grid = refined(at, optimum.grid, optimum.least, nearness);
     optimum.least = least_impulses(optimum.grid.effects, change);

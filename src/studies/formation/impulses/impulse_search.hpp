@@ -16,29 +16,29 @@ Eigen::Matrix<double, 6, 6> symplectic_inverse(const Eigen::Matrix<double, 6, 6>
 
 ImpulseEffect effect_of(const Eigen::Matrix<double, 6, 6>& flow);
 
-/// The times at which impulses are looked for, moving away from 0, and what they do.
+/// The times at which impulses are possible, moving away from 0, and their effects.
 struct ImpulseGrid {
-  std::vector<double> times;  ///< canonical
+  std::vector<double> times;  ///< in canonical units
   std::vector<ImpulseEffect> effects;
 
   void add(double time, const Eigen::Matrix<double, 6, 6>& flow);
 };
 
-/// Every fifth checkpoint of the flow, 48 a revolution, before a time; fewer where that is more
-/// than some thousands, and the time itself.
+/// Every fifth checkpoint of the flow before a time, that is 48 per revolution (fewer if this would
+/// be more than some thousands), and the time itself.
 ImpulseGrid impulse_grid(const LinearFlow& flow, double time);
-/// The same from one time to another, both included.
+/// The grid from one time to another, both included.
 ImpulseGrid impulse_grid(const LinearFlow& flow, double first, double last);
 
-/// So many of the listed times, evenly over their list and with the last.
+/// This many of the listed times, evenly spread over the list and including the last.
 std::vector<double> some_times(const std::vector<double>& times, std::size_t most);
 
 /// The magnitude of the primer vector along a grid.
 std::vector<PrimerMagnitude> primer_along(const ImpulseGrid& grid,
                                           const Eigen::Matrix<double, 6, 1>& costate);
 
-/// The primer vector along a grid that is along these unit vectors, in inertial axes, at its ends;
-/// absent where the flow's positions cannot be commanded.
+/// The primer vector along a grid that equals these unit vectors, in inertial axes, at its ends;
+/// absent if positions cannot be commanded in the flow.
 std::optional<PrimerHistory> primer_between(const ImpulseGrid& grid, const Eigen::Vector3d& first,
                                             const Eigen::Vector3d& last);
 

@@ -24,7 +24,7 @@ bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Ve
   for (std::size_t k = 0; k < effects.size(); ++k) {
     reach += weights[k] * effects[k] * effects[k].transpose();
   }
-  // In units of its diagonal, so that the unit of length does not decide.
+  // The matrix is scaled by its diagonal, so that the result does not depend on the unit of length.
   const Vector6 scale = reach.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return false;
   const Matrix6 scaled = scale.asDiagonal() * reach * scale.asDiagonal();
@@ -42,7 +42,7 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Relative to `most`, impulses this near to it are at it.
+/// An impulse counts as being at the limit if its relative distance from `most` is below this.
 constexpr double nearness_to_limit = 1e-6;
 
 double sum_of(const std::vector<ChosenImpulse>& impulses) {
@@ -69,7 +69,7 @@ std::vector<double> weights_below(std::vector<double> weights,
                                   const std::vector<Eigen::Vector3d>& impulses, double most) {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const double room = 1 - impulses[k].norm() / most;
-    // One at the limit is turned, which makes it longer by a second order alone.
+    // An impulse at the limit is only turned, which changes its length to second order.
     if (room > nearness_to_limit) weights[k] *= room;
   }
   return weights;
@@ -77,13 +77,13 @@ std::vector<double> weights_below(std::vector<double> weights,
 
 namespace {
 
-/// The problem in coordinates in which impulses of all times together reach equally far in all
+/// The problem in coordinates in which the impulses of all times together reach equally far in all
 /// directions.
 struct EvenProblem {
   Matrix6 to_even;
   std::vector<ImpulseEffect> effects;
-  double size = 0;  ///< of the change there
-  Vector6 change;   ///< over its size
+  double size = 0;  ///< size of the change in these coordinates
+  Vector6 change;   ///< the change divided by its size
 
   EvenProblem(const std::vector<ImpulseEffect>& given, const Vector6& given_change) {
     Matrix6 reach = Matrix6::Zero();
@@ -117,7 +117,8 @@ struct EvenProblem {
     return magnitudes;
   }
 
-  /// What all impulses cost at least, by any costate: over the size of the change.
+  /// A lower bound of the cost of all impulses, from any costate, divided by the size of the
+  /// change.
   double bound(const Vector6& costate, double most) const {
     const std::vector<double> magnitudes = primer(costate);
     const double value = change.dot(costate);
@@ -129,7 +130,8 @@ struct EvenProblem {
     return value - most * above;
   }
 
-  /// How much of the change impulses below a limit make at most, by any costate.
+  /// An upper bound, from any costate, of the fraction of the change that impulses below a limit
+  /// can make.
   double share(const Vector6& costate, double most) const {
     const std::vector<double> magnitudes = primer(costate);
     const double value = change.dot(costate);
@@ -137,15 +139,15 @@ struct EvenProblem {
                      : std::numeric_limits<double>::infinity();
   }
 
-  /// What the impulses leave of the change.
+  /// The part of the change that the impulses leave.
   Vector6 missing(const std::vector<ChosenImpulse>& impulses) const {
     Vector6 left = change;
     for (const ChosenImpulse& one : impulses) left -= effects[one.time] * one.change;
     return left;
   }
 
-  /// Lets the impulses make the whole change, to which the solver's tolerance adds. Few may reach
-  /// some directions only; what is then missing is left.
+  /// Lets the impulses make the whole change, apart from which the solver's tolerance leaves a
+  /// rest. A few impulses may reach some directions only; the rest in other directions stays.
   void complete(std::vector<ChosenImpulse>& found, double most) const {
     std::vector<ImpulseEffect> used;
     std::vector<Eigen::Vector3d> impulses;
@@ -165,14 +167,14 @@ struct EvenProblem {
   }
 };
 
-/// Relative to its value: how near the cost is brought to its bound, and how near it must be.
+/// The wanted and the required distance of the cost from its bound, relative to the cost.
 constexpr double wanted_gap = 1e-9;
 constexpr double largest_gap = 1e-7;
 constexpr double largest_residual = 1e-9;
 constexpr int most_rounds = 400;
 
-/// Whether impulses below the limit make the change, and if not what limit they need at least.
-/// (Of the change's size.)
+/// Whether impulses below the limit can make the change; if not, the least limit that they need, as
+/// a fraction of the change's size.
 std::optional<double> limit_needed(const EvenProblem& even, DirectedImpulses& program,
                                    double most) {
   double possible = no_limit;
@@ -218,7 +220,7 @@ LimitedImpulses found_impulses(const std::vector<ImpulseEffect>& effects, const 
     least.impulses.push_back({one.time, even.size * one.change});
   }
   least.cost = sum_of(least.impulses);
-  // The bound is below every cost but for rounding.
+  // Apart from rounding, the bound is below every cost.
   least.lower_bound = std::min(even.size * bound, least.cost);
   least.costate = even.to_even.transpose() * costate;
   require_least(effects, change, most, least);
@@ -245,7 +247,8 @@ void require_least(const std::vector<ImpulseEffect>& effects, const Vector6& cha
     throw UnprovedLeast("impulses: one that was found is above the limit");
   }
   const Vector6 costate = even.to_even.transpose().partialPivLu().solve(least.costate);
-  // Without a limit a costate proves as much at any scale, but is the primer vector's at one alone.
+  // Without a limit a costate proves the same at any scale, but only one scale gives the primer
+  // vector.
   const double bound = std::min(even.bound(costate, most / even.size), even.change.dot(costate));
   const double cost = sum_of(impulses);
   const bool is_told = std::abs(least.cost / even.size - cost) <= 1e-12 * cost &&

@@ -10,11 +10,11 @@
 
 namespace hamjet {
 
-/// What an impulse at a time does to the deviation at the start of a linear flow: the last three
-/// columns of the inverse of the flow's matrix to that time.
+/// The effect of an impulse at a time on the deviation at the start of a linear flow: the last
+/// three columns of the inverse of the flow's matrix to that time.
 using ImpulseEffect = Eigen::Matrix<double, 6, 3>;
 
-/// The solver of a linear program failed, or what it said was checked and is not the least.
+/// The solver of a linear program failed, or its answer was checked and is not the least.
 class UnprovedLeast : public Error {
  public:
   explicit UnprovedLeast(const std::string& message) : Error(ErrorKind::numerical, message) {}
@@ -22,18 +22,18 @@ class UnprovedLeast : public Error {
 
 /// An impulse at one of the given times.
 struct ChosenImpulse {
-  std::size_t time = 0;  ///< the index of its effect
+  std::size_t time = 0;  ///< index of its effect
   Eigen::Vector3d change = Eigen::Vector3d::Zero();
 };
 
-/// The impulses of the least sum of magnitudes that together make a change of the deviation.
+/// The impulses with the least sum of magnitudes that together make a change of the deviation.
 struct LeastImpulses {
   std::vector<ChosenImpulse> impulses;  ///< at most six, in the order of the times
   double cost = 0;                      ///< sum of their magnitudes
-  /// No impulses at the given times make the change for less: the value of the dual problem.
+  /// A bound from the dual problem: no impulses at the given times make the change for less.
   double lower_bound = 0;
-  /// The primer vector is effect^T times this; without a limit of the impulses its magnitude is at
-  /// most 1 at the given times, and 1 where there are impulses. (Lawden, Optimal Trajectories for
+  /// The primer vector is effect^T times this; if impulses are not limited, its magnitude is at
+  /// most 1 at the given times, and 1 at those with impulses. (Lawden, Optimal Trajectories for
   /// Space Navigation, 1963.)
   Eigen::Matrix<double, 6, 1> costate = Eigen::Matrix<double, 6, 1>::Zero();
 };
@@ -46,42 +46,43 @@ struct LeastImpulses {
 LeastImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
                              const Eigen::Matrix<double, 6, 1>& change);
 
-/// The least impulses below a limit, or why there are none.
+/// The least impulses below a limit, or the reason why there are none.
 struct LimitedImpulses {
   std::optional<LeastImpulses> least;
-  /// Where there are none: a limit below this is too low.
+  /// If there are none: the limit must be at least this.
   double limit_needed = 0;
 };
 
-/// The same with no impulse above `most`, which is above 0: least sum |v_k| with sum B_k v_k =
-/// change and |v_k| <= most, by the dual problem, largest
+/// The least impulses of which none exceeds `most` > 0: least sum |v_k| with sum B_k v_k = change
+/// and |v_k| <= most, by the dual problem, largest
 ///
 ///   change . y - most sum_k max(0, |B_k^T y| - 1),
 ///
-/// so that the primer vector exceeds 1 where an impulse is `most`. Those are beside at most six
-/// others. There are none below the limit where a y has change . y > most sum_k |B_k^T y|. Throws
-/// as above.
+/// so that the primer vector exceeds 1 at impulses of size `most`. Beside these there are at most
+/// six others. There is no solution if some y has change . y > most sum_k |B_k^T y|. Throws as
+/// above.
 LimitedImpulses least_impulses(const std::vector<ImpulseEffect>& effects,
                                const Eigen::Matrix<double, 6, 1>& change, double most);
 
-/// What must be true of an answer, whoever found it: the impulses make the change to 1e-9, none is
-/// above `most`, and they cost no more than 1e-7 above what the costate proves to be a bound.
-/// Throws UnprovedLeast where it is not, also of numbers that are not finite.
+/// Verifies an answer: the impulses make the change to 1e-9, none is above `most`, and they cost at
+/// most 1e-7 more than the bound that the costate proves. Throws UnprovedLeast otherwise, also for
+/// numbers that are not finite.
 void require_least(const std::vector<ImpulseEffect>& effects,
                    const Eigen::Matrix<double, 6, 1>& change, double most,
                    const LeastImpulses& least);
 
-/// The effects of what may be added to impulses of at most `most`: those that are as large may only
-/// be turned.
+/// The effects of corrections to impulses of at most `most`: impulses of that size may only be
+/// turned.
 std::vector<ImpulseEffect> effects_below(const std::vector<ImpulseEffect>& effects,
                                          const std::vector<Eigen::Vector3d>& impulses, double most);
-/// Weights of add_change for impulses of at most `most`, likewise; `weights` hold without a limit.
+/// The weights of add_change for impulses of at most `most`; `weights` are those without a limit.
 std::vector<double> weights_below(std::vector<double> weights,
                                   const std::vector<Eigen::Vector3d>& impulses, double most);
 
-/// Changes the impulses so that they make `change` more, by the least sum of squares over the
-/// weights, which are at least 0. With the magnitudes of optimal impulses as weights the cost is
-/// the least to first order. False, and nothing is changed, if impulses at these times cannot.
+/// Corrects the impulses so that they make the additional change `change`, with the least sum of
+/// squares divided by the weights, which are at least 0. With the magnitudes of optimal impulses as
+/// weights the cost is the least to first order. Returns false, without any correction, if impulses
+/// at these times cannot make it.
 bool add_change(const std::vector<ImpulseEffect>& effects, std::vector<Eigen::Vector3d>& impulses,
                 const std::vector<double>& weights, const Eigen::Matrix<double, 6, 1>& change);
 

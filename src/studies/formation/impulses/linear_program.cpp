@@ -21,10 +21,11 @@ struct LinearProgram::Model {
 };
 
 LinearProgram::LinearProgram(const std::vector<Row>& rows) : model_(std::make_unique<Model>()) {
-  constexpr double tolerance = 1e-10;  // of rows and columns that are of order one
+  constexpr double tolerance = 1e-10;  // for rows and columns that are of order one
   Clp_Simplex* const clp = model_->clp;
   Clp_setLogLevel(clp, 0);
-  // Its own scaling takes rounding among the coefficients for small numbers, and magnifies it.
+  // Clp's own scaling would take rounding errors among the coefficients for small numbers, and
+  // magnify them.
   Clp_scaling(clp, 0);
   Clp_setPrimalTolerance(clp, tolerance);
   Clp_setDualTolerance(clp, tolerance);

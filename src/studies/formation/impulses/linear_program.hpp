@@ -8,8 +8,8 @@
 
 namespace hamjet {
 
-/// A linear program: least cost . x with lower <= A x <= upper and 0 <= x <= most. It grows by
-/// columns and is solved by the primal simplex method of COIN-OR's Clp, from the last basis on.
+/// A linear program: least cost . x with lower <= A x <= upper and 0 <= x <= most. Columns can be
+/// added. It is solved by the primal simplex method of COIN-OR's Clp, starting from the last basis.
 class LinearProgram {
  public:
   struct Row {
@@ -34,17 +34,17 @@ class LinearProgram {
   void add(const std::vector<Column>& columns);
   /// Gives each column a new cost.
   void set_costs(const std::vector<double>& costs);
-  /// Lets a column's variable have one value alone.
+  /// Restricts a column's variable to one value.
   void fix(std::size_t column, double value);
 
-  /// Throws UnprovedLeast where the solver does not say that it found the optimum.
+  /// Throws UnprovedLeast unless the solver reports that it found the optimum.
   void solve();
-  /// Of the last solve(): the value of each column, and what the bound of each row costs.
+  /// Results of the last solve(): the value of each column, and the multiplier of each row.
   std::span<const double> values() const;
   std::span<const double> duals() const;
 
  private:
-  struct Model;  // keeps the solver's header out of this one
+  struct Model;  // keeps the solver's header out of this header
   std::unique_ptr<Model> model_;
 };
 

@@ -19,7 +19,7 @@ std::vector<double> PlannedTransfer::start_state() const {
   return state_sum(problem_.nominal, start_);
 }
 
-/// The deviation from the chief at the end of a deputy that flies the impulses.
+/// The final deviation from the chief of a deputy that flies the impulses.
 std::vector<double> PlannedTransfer::fly(const TimedImpulses& impulses, const OnLeg& on_leg) const {
   std::vector<double> state = start_state();
   double now = 0;
@@ -46,10 +46,10 @@ FlownImpulses PlannedTransfer::corrected(const LinearImpulses& impulses) const {
 FlownImpulses PlannedTransfer::corrected(Linearization linear, TimedImpulses impulses,
                                          bool is_spaced) const {
   constexpr int most_flights = 16;
-  // A flight that leaves more than this of the miss before it shows that its flow does not hold.
+  // If a flight leaves more than this fraction of the previous miss, its linear flow does not hold.
   constexpr double slow = 0.3;
   const double most_miss = scene_.transfer->refined_miss_m / units_.length_m;
-  // The same times the mean motion of a circle, to a factor of two.
+  // The corresponding limit for velocities: times the mean motion on a circle, to a factor of two.
   const double most_velocity_miss = most_miss * momentum_unit_;
   FlownImpulses flown{std::move(impulses), is_spaced, 0, 0, 0, ""};
   auto& [times, changes] = flown.impulses;
@@ -95,7 +95,8 @@ FlownImpulses PlannedTransfer::corrected(Linearization linear, TimedImpulses imp
   return flown;
 }
 
-/// add_change that leaves no impulse above the limit; what is cut off the next flight shows.
+/// As add_change, but leaves no impulse above the limit; the next flight shows the part that is cut
+/// off.
 bool PlannedTransfer::add_below_limit(const std::vector<ImpulseEffect>& effects,
                                       std::vector<Eigen::Vector3d>& changes,
                                       const std::vector<double>& weights,
@@ -108,11 +109,12 @@ bool PlannedTransfer::add_below_limit(const std::vector<ImpulseEffect>& effects,
   return is_added;
 }
 
-/// Adds times, evenly from start to end, at which small impulses may correct what those of the plan
-/// cannot, such as a way out of the plane of an orbit by impulses half a revolution apart.
+/// Adds times, evenly from start to end, at which small impulses may make corrections that the
+/// plan's impulses cannot, for example out of the plane of an orbit when these are half a
+/// revolution apart.
 void PlannedTransfer::add_trims(TimedImpulses& impulses, std::vector<double>& weights,
                                 bool is_spaced) const {
-  // At spaced times a quarter of a revolution may lie between those of the plan.
+  // If impulses are spaced, a quarter of a revolution may lie between those of the plan.
   const int trims = is_spaced ? 9 : 5;
   constexpr double share = 1e-2;
   const double weight = share * impulses.sum() / trims;
@@ -135,9 +137,9 @@ void PlannedTransfer::add_trims(TimedImpulses& impulses, std::vector<double>& we
   }
 }
 
-/// What of flown impulses the scene does not allow.
+/// The reason why the scene's limits forbid the flown impulses; empty if they do not.
 std::string PlannedTransfer::forbidden_by_limits(const TimedImpulses& impulses) const {
-  // At the limit they are there to rounding.
+  // Impulses at the limit may exceed it by rounding.
   if (impulses.largest() > most_ * (1 + 1e-12)) {
     return fmt::format("an impulse is {:.4g} m/s, above largest_impulse_m_s",
                        metres_per_second(impulses.largest()));

@@ -23,7 +23,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 namespace {
 
-/// Between impulses that a limit divides, where the scene has no gap of its own.
+/// Distance of the impulses that a limit divides, as a part of a period, if the scene gives none.
 constexpr double gaps_in_period = 72;
 
 std::vector<ImpulseEffect> effects_at(const MatrixAt& at, const std::vector<double>& times) {
@@ -41,7 +41,7 @@ Vector6 change_by(const MatrixAt& at, const TimedImpulses& impulses) {
   return change;
 }
 
-/// Impulses between two choices of them, each at its own times.
+/// Impulses between two choices, each at its own times.
 TimedImpulses blend(const TimedImpulses& from, const TimedImpulses& to, double share) {
   TimedImpulses all;
   for (std::size_t i = 0, j = 0; i < from.times.size() || j < to.times.size();) {
@@ -58,7 +58,7 @@ TimedImpulses blend(const TimedImpulses& from, const TimedImpulses& to, double s
   return all;
 }
 
-/// One impulse, at their mean time, in place of the one of an index and that before it.
+/// The impulses with number `i` and the one before it replaced by one at their mean time.
 TimedImpulses with_one_for_two(TimedImpulses impulses, std::size_t k) {
   auto& [times, changes] = impulses;
   const double first = changes[k - 1].norm();
@@ -158,8 +158,8 @@ PlannedTransfer::FoundImpulses PlannedTransfer::find(const Linearization& linear
   return within_limit(linear, search_impulses(linear.grid, linear.at, change), change);
 }
 
-/// The impulses of an optimum, or where one of them is above the limit the least of those that are
-/// not, at times that are spaced: without a space many small ones would be a large one.
+/// The impulses of an optimum or, if one of them is above the limit, the least ones at spaced times
+/// of which none is. Without spacing, many small impulses in a row would amount to a large one.
 PlannedTransfer::FoundImpulses PlannedTransfer::within_limit(const Linearization& linear,
                                                              ImpulseOptimum optimum,
                                                              const Vector6& change) const {
@@ -185,7 +185,7 @@ PlannedTransfer::FoundImpulses PlannedTransfer::within_limit(const Linearization
   return found;
 }
 
-/// Impulses that are close together become one, at their mean time, where that costs nothing.
+/// Merges impulses that are close together into one at their mean time, if that costs nothing.
 TimedImpulses PlannedTransfer::merged(const Linearization& linear, const ImpulseOptimum& optimum,
                                       const Vector6& change) const {
   TimedImpulses all;
@@ -223,7 +223,8 @@ ImpulsePlan PlannedTransfer::plan(const FlownImpulses& given) const {
   }
   plan.forbidden = flown.failure.empty() ? forbidden_by_limits(flown.impulses) : "";
   if (!plan.forbidden.empty() && forbidden_by_limits(given.impulses).empty()) {
-    // What the linear theory makes cheaper may lead through what the scene keeps free.
+    // Impulses that the linear theory makes cheaper may lead through the region that the scene
+    // keeps free.
     flown = given;
     plan.forbidden.clear();
     plan.lower_bound_m_s.reset();
@@ -242,12 +243,12 @@ ImpulsePlan PlannedTransfer::plan(const FlownImpulses& given) const {
   return plan;
 }
 
-/// The linear theory about the way that was flown finds cheaper impulses, or proves that to first
+/// The linear theory about the flown trajectory finds cheaper impulses, or proves that to first
 /// order there are none. Steps to them are shortened until flights confirm that they are cheaper.
 void PlannedTransfer::improve(FlownImpulses& flown, ImpulsePlan& plan) const {
   constexpr int most_rounds = 8;
   constexpr double worth_it = 1e-5;
-  // Where theory and flights disagree by more, the bound says nothing.
+  // If theory and flights disagree by more than this, the bound means nothing.
   constexpr double disagreement = 1e-2;
   try {
     for (int round = 0; round < most_rounds; ++round) {
@@ -265,7 +266,7 @@ void PlannedTransfer::improve(FlownImpulses& flown, ImpulsePlan& plan) const {
       if (sum <= bound * (1 + worth_it) || round + 1 == most_rounds) return;
       std::optional<FlownImpulses> cheaper;
       for (double share = 1; share > 0.1 && !cheaper; share /= 2) {
-        // Between other times the impulses would not be spaced.
+        // At a mixture of times the impulses would not be spaced.
         if (share < 1 && found.is_spaced && !flown.is_spaced) break;
         FlownImpulses next =
             corrected(linear, blend(flown.impulses, found.impulses, share), found.is_spaced);
@@ -283,8 +284,8 @@ void PlannedTransfer::improve(FlownImpulses& flown, ImpulsePlan& plan) const {
   }
 }
 
-/// Leaves out impulses that are nothing beside the others, and lets those that are close together
-/// be one, where flights confirm that it costs nothing.
+/// Removes impulses that are negligible beside the others, and merges impulses that are close
+/// together, if flights confirm that this costs nothing.
 void PlannedTransfer::tidy(FlownImpulses& flown, ImpulsePlan& plan) const {
   constexpr double nothing = 1e-6;
   const auto take_if_as_cheap = [&](const TimedImpulses& fewer) {

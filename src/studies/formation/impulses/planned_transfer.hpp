@@ -14,56 +14,58 @@ namespace hamjet {
 /// Impulses that a linear theory chose.
 struct LinearImpulses {
   TimedImpulses impulses;
-  bool is_spaced = false;  ///< they are at spaced times, none above the scene's limit
+  bool is_spaced = false;  ///< the impulses are at spaced times, none above the scene's limit
 };
 
-/// Impulses that were flown to the scene's end, or how far they came.
+/// Impulses that were flown to the scene's end, or as far as they led.
 struct FlownImpulses {
   TimedImpulses impulses;
   bool is_spaced = false;
   int flights = 0;
   double miss_m = 0;
   double velocity_miss_m_s = 0;
-  std::string failure;  ///< not empty: they do not lead to the end, and why
+  std::string failure;  ///< if not empty, the reason why they do not lead to the end
 };
 
-/// One deputy's way from the scene's start to its end in a given time by any number of impulses.
-/// What it looks at must outlive it.
+/// The transfer of one deputy from the scene's start to its end in a given time by any number of
+/// impulses. All arguments of the constructor must outlive it.
 class PlannedTransfer {
  public:
   PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
                   double duration);
 
-  /// A sum of magnitudes of impulses in m/s.
+  /// Converts a sum of impulses' magnitudes to m/s.
   double metres_per_second(double sum) const;
-  /// Impulses of a plan in the units of the linear flow, those of no size left out.
+  /// The impulses of a plan in the units of the linear flow; impulses of zero size are left out.
   TimedImpulses in_flow_units(const std::vector<Impulse>& impulses) const;
 
-  /// The least impulses of the linear theory about the chief, on a coarse grid or on one that is
-  /// fine about them. Throw as least_impulses, and Error(numerical) where those below the scene's
-  /// limit do not suffice.
+  /// The least impulses of the linear theory about the chief, on a coarse grid, or on one that is
+  /// refined about them. Throw as least_impulses, and Error(numerical) if impulses below the
+  /// scene's limit do not suffice.
   LinearImpulses coarse() const;
   LinearImpulses by_linear_theory() const;
-  /// The impulses changed until the deputy that flies them comes to the end. (Newton's method; its
-  /// linear flow is that about the chief until this does not hold, then that about the deputy.)
+  /// The impulses, changed until the deputy that flies them arrives at the end. (Newton's method;
+  /// its linear flow is that about the chief until this does not hold, and then that about the
+  /// deputy.)
   FlownImpulses corrected(const LinearImpulses& impulses) const;
-  /// A plan of flown impulses, made cheaper by the linear theory about its own way as long as
-  /// flights confirm that it is: its sum is never above the given one.
+  /// A plan from flown impulses, made cheaper by the linear theory about its own trajectory as long
+  /// as flights confirm it: its sum is never above the given one.
   ImpulsePlan plan(const FlownImpulses& given) const;
 
  private:
-  /// A linear flow, in which impulses are chosen and corrected.
+  /// A linear flow in which impulses are chosen and corrected.
   struct Linearization {
     MatrixAt at;
     ImpulseGrid grid;
     Eigen::Matrix<double, 6, 6> from_end;  ///< the flow from the end to the start
   };
-  /// Impulses of the linear theory that make a change, and what proves them the least.
+  /// Impulses of the linear theory that make a change, and the proof that they are the least.
   struct FoundImpulses : LinearImpulses {
     ImpulseOptimum optimum;
   };
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  /// Called with the time at which a leg of the flight begins, its duration, and the state then.
+  /// Called for each leg of the flight with the time at which it begins, its duration, and the
+  /// state at its beginning.
   using OnLeg = std::function<void(double, double, const std::vector<double>&)>;
 
   ChiefFrame frame(const std::vector<double>& chief) const;
@@ -100,8 +102,8 @@ class PlannedTransfer {
   std::vector<double> chief_end_;
   std::vector<double> start_;  ///< canonical (dq, dp)
   std::vector<double> end_;
-  double most_ = std::numeric_limits<double>::infinity();  ///< that an impulse may be
-  double gap_ = 0;  ///< between impulses that the limit divides; canonical
+  double most_ = std::numeric_limits<double>::infinity();  ///< largest allowed impulse
+  double gap_ = 0;  ///< time between impulses that the limit divides, in canonical units
 };
 
 }  // namespace hamjet

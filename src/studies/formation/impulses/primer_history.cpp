@@ -33,7 +33,7 @@ std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedPr
   const MetricUnits units = metric_units(scene);
   const TransferAnswer& answer = point.best();
   if (answer.start_change_m_s.isZero(0) || answer.end_change_m_s.isZero(0)) return std::nullopt;
-  // The primer is along the impulse at each end, in inertial axes.
+  // The primer equals the direction of the impulse at each end, in inertial axes.
   const auto direction = [&](const std::vector<double>& chief, const Eigen::Vector3d& change) {
     const std::vector<double> z = ChiefFrame(chief, units, scene.transfer->frame)
                                       .deviation({Eigen::Vector3d::Zero(), change});

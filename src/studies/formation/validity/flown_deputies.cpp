@@ -30,7 +30,7 @@ Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const doubl
   DifferentiableFunction<double> field(system.vector_field);
   field.evaluate(chief);
   const Vector<double> rates = field.values();
-  Vector6 gradient;  // of the Hamiltonian: (-dp/dt, dq/dt)
+  Vector6 gradient;  // gradient of the Hamiltonian: (-dp/dt, dq/dt)
   gradient << -rates.tail<3>(), rates.head<3>();
   Vector6 coordinates = axes.transpose() * gradient;
   for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
@@ -82,10 +82,10 @@ Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double st
 
 FlownDeputies::Worst FlownDeputies::worst_from(const Worst& start, int order, double separation) {
   constexpr int most_iterations = 12;
-  constexpr double step = 1e-3;          // of the separation, for differences
-  constexpr double least_growth = 2e-3;  // of the miss, in an iteration
-  // Lengths of a step along the gradient, in semi-axes; the first goes straight to the ellipsoids'
-  // points in its direction.
+  constexpr double step = 1e-3;          // step of differences, as a fraction of the separation
+  constexpr double least_growth = 2e-3;  // least relative growth of the miss in an iteration
+  // Lengths of a step along the gradient, in semi-axes; the first one leads straight to the
+  // ellipsoids' points in this direction.
   constexpr double lengths[] = {1e6, 1, 0.25, 0.06};
   Worst worst = start;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {

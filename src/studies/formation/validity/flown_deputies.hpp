@@ -13,22 +13,22 @@ namespace hamjet {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// The canonical deviations, a column each, of unit coordinates of an ellipsoid of semi-axes along
-/// a frame's axes, three of position and three of the same ellipsoid times a velocity. In a
-/// rotating frame the deviations of position have a velocity too.
+/// The canonical deviations, as columns, for unit coordinates of an ellipsoid whose semi-axes are
+/// along a frame's axes: three of position, and three of the same ellipsoid times a velocity. In a
+/// rotating frame the deviations of position contain a velocity too.
 Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
                        std::span<const double> semi_axes, double velocity);
 
-/// The unit coordinates, of position and of velocity, in which the Hamiltonian grows most from the
-/// chief on.
+/// The unit coordinates, of position and of velocity, in whose direction the Hamiltonian grows most
+/// at the chief.
 Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,
                             const Matrix6& axes);
 
-/// Deputies of one chief, flown to one time with the full equations, beside what polynomials say
-/// of them. Deputies are told by coordinates along the columns of `axes`.
+/// Deputies of one chief, flown to one time with the full equations, and their predictions by
+/// polynomials. A deputy is given by its coordinates along the columns of `axes`.
 class FlownDeputies {
  public:
-  /// All must outlive it; `before_flight` is called before each flight.
+  /// All arguments must outlive this object; `before_flight` is called before each flight.
   FlownDeputies(const ComputedProblem& problem, const Matrix6& axes, double time,
                 const DeputyFlow& flow, std::function<void()> before_flight)
       : problem_(problem),
@@ -39,20 +39,20 @@ class FlownDeputies {
 
   /// The canonical deviation (dq, dp) of a deputy at the start.
   SixNumbers<double> deviation(const Vector6& coordinates) const;
-  /// By how much the polynomials of an order miss the flown state, canonical; not finite where the
-  /// deputy cannot be flown or has no place in the coordinates.
+  /// The difference, in canonical units, between the polynomials of an order and the flown state;
+  /// not finite if the deputy cannot be flown or has no place in the coordinates.
   Vector6 error(const Vector6& coordinates, int order);
-  /// The distance in position that they miss it by; infinite where that is not finite.
+  /// The distance in position of this difference; infinite if it is not finite.
   double miss(const Vector6& coordinates, int order);
   /// The derivative of the miss by the coordinates, by differences over `step` to both sides.
   Vector6 gradient(const Vector6& coordinates, int order, double step);
 
   struct Worst {
-    Vector6 direction;  ///< coordinates over the separation
+    Vector6 direction;  ///< coordinates divided by the separation
     double miss = 0;
   };
-  /// Ascent of the miss from a deputy, in the ellipsoids of position and velocity of a separation:
-  /// by steps along the gradient that are brought back to the ellipsoids.
+  /// Ascent of the miss from a deputy, within the ellipsoids of position and velocity of a
+  /// separation, by steps along the gradient that are brought back to the ellipsoids.
   Worst worst_from(const Worst& start, int order, double separation);
 
   DeputyPredictor& predictor() { return predictor_; }

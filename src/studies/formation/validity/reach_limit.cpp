@@ -12,7 +12,7 @@ namespace {
 
 using Columns6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// The derivative of the polynomials' variables by a deputy's coordinates, transposed.
+/// The transposed derivative of the polynomials' variables by a deputy's coordinates.
 Columns6 variables_by_coordinates(FlownDeputies& deputies, const Vector6& deputy, double step) {
   Columns6 result(6, static_cast<Eigen::Index>(deputies.predictor().flow().variables()));
   for (Eigen::Index i = 0; i < 6; ++i) {
@@ -26,8 +26,8 @@ Columns6 variables_by_coordinates(FlownDeputies& deputies, const Vector6& deputy
   return result;
 }
 
-/// By how much a change of one of the polynomials' values moves the chief's end, in its distance
-/// and speed.
+/// The relative change of the chief's distance and speed at the end per unit of one of the
+/// polynomials' values.
 double relative_size(const DeputyFlow& flow, std::size_t value) {
   const Eigen::Map<const Vector6> end(flow.chief_end().data());
   const Vector6 moved = flow.exit_derivative().col(static_cast<Eigen::Index>(value));
@@ -35,10 +35,10 @@ double relative_size(const DeputyFlow& flow, std::size_t value) {
                     moved.tail<3>().norm() / end.tail<3>().norm());
 }
 
-/// The derivative of the final deviation by the polynomials' values, at a deputy.
+/// The derivative, at a deputy, of the final deviation by the polynomials' values.
 Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double>& initial,
                              int order) {
-  constexpr double share = 1e-6;  // of the chief's distance and speed
+  constexpr double share = 1e-6;  // as a fraction of the chief's distance and speed
   const DeputyFlow& flow = predictor.flow();
   MonomialValues point(flow.polynomials()[0].space_pointer());
   point.set_point(predictor.variables(initial));
@@ -87,7 +87,8 @@ LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, con
 
 ReachLimit reach_limit(FlownDeputies& deputies, int order, const Vector6& deputy,
                        const CoordinatesAtEnds& coordinates, const LimitCoordinates& names) {
-  constexpr double step = 0.01;  // of the separation, for differences of a miss that rounds
+  constexpr double step = 0.01;  // step of differences, as a fraction of the separation; large
+                                 // because the miss has rounding errors
   const double separation = std::max(deputy.head<3>().norm(), deputy.tail<3>().norm());
   const Vector6 error = deputies.error(deputy, order);
   const Eigen::Vector3d miss = error.head<3>();
@@ -95,8 +96,8 @@ ReachLimit reach_limit(FlownDeputies& deputies, int order, const Vector6& deputy
   ReachLimit limit;
   limit.degree = gradient.dot(deputy);
 
-  // The parts of the degree by coordinates: of the variables, the derivative along the ray times
-  // the logarithm's slope by each.
+  // The part of the degree that belongs to each variable: its derivative along the ray times the
+  // logarithmic slope by the variable.
   Eigen::VectorXd degrees = gradient.cwiseProduct(deputy);
   if (coordinates.start != JetCoordinates::cartesian) {
     const Columns6 by_coordinates = variables_by_coordinates(deputies, deputy, 1e-4 * separation);
@@ -107,7 +108,7 @@ ReachLimit reach_limit(FlownDeputies& deputies, int order, const Vector6& deputy
   limit.start_degree = degrees.maxCoeff(&place);
   limit.start_coordinate = names.start[static_cast<std::size_t>(place)];
 
-  // The parts of the miss by values, along its direction.
+  // The part of the miss that belongs to each value, along the direction of the miss.
   Eigen::VectorXd shares = (names.end_axes * miss).cwiseAbs2();
   if (coordinates.end != JetCoordinates::cartesian) {
     const Columns6 by_values =

@@ -20,12 +20,12 @@
 namespace hamjet {
 namespace {
 
-/// The separations tried, relative to the chief's distance at the start; beyond the largest no
-/// orbit is near.
+/// The separations that are tried, relative to the chief's distance at the start; beyond the
+/// largest no orbit counts as near.
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
 
-/// One study at work.
+/// One study in progress.
 class ValidityStudy {
  public:
   ValidityStudy(const Scene& scene, const ProgressCallback& progress)
@@ -75,14 +75,14 @@ class ValidityStudy {
       }
       samples_.push_back(coordinates);
     }
-    // Polynomials in elements may be exact of every bound orbit: those end where a deputy escapes
-    // or falls, which is found along the energy alone.
+    // Polynomials in elements may be exact for every bound orbit. They fail only where a deputy
+    // escapes or falls, which is found along the energy alone.
     const Vector6 energy = direction_of_energy(*problem_.system, problem_.nominal, axes_);
     samples_.push_back(energy);
     samples_.push_back(-energy);
   }
 
-  /// What the degrees of the polynomials add to the final position, to first order in the
+  /// The contributions of the polynomials' degrees to the final position, to first order in the
   /// coordinates at both ends: three series, and the variables of a sample.
   void linearise_ends(const DeputyFlow& flow) {
     const Matrix<double> exit = flow.exit_derivative();
@@ -103,16 +103,16 @@ class ValidityStudy {
     values_->set_point({point.data(), static_cast<std::size_t>(point.size())});
   }
 
-  /// Size of one degree's part of the position at a sample.
+  /// Size of the contribution of one degree to the position at a sample.
   double slice_size(const Vector6& coordinates, int degree) {
     set_point(coordinates);
     return std::hypot(values_->slice(positions_[0], degree), values_->slice(positions_[1], degree),
                       values_->slice(positions_[2], degree));
   }
 
-  /// Ascent from a sample to a deviation at which the part of one degree is largest: the next point
-  /// is the gradient's direction, in position and in velocity apart. Random samples alone come out
-  /// at half of the worst.
+  /// Ascent from a sample to a deviation at which the contribution of one degree is largest: the
+  /// next point is the direction of the gradient, for position and velocity separately. Random
+  /// samples alone would reach only half of the largest value.
   Vector6 worst_from(Vector6 point, int degree) {
     constexpr int most_iterations = 30;
     double size = slice_size(point, degree);
@@ -141,11 +141,12 @@ class ValidityStudy {
     return point;
   }
 
-  /// The distinct deviations at which the part of one degree is a local maximum, as far as ascents
-  /// from the samples find them, the largest first; then the samples. The largest samples alone may
-  /// all lie below one maximum, and the flown error may be larger at another.
+  /// The distinct deviations at which the contribution of one degree has a local maximum, as far as
+  /// ascents from the samples find them, the largest first; then the samples. All of the largest
+  /// samples may lie near a single maximum, while the flown error is larger at another one.
   std::vector<Vector6> samples_with_worst(int degree) {
-    constexpr double same = 0.1;  // distance of what two ascents to one maximum find
+    constexpr double same =
+        0.1;  // largest distance between the results of two ascents to one maximum
     std::vector<std::pair<double, Vector6>> maxima;
     for (const Vector6& sample : samples_) {
       const Vector6 found = worst_from(sample, degree);
@@ -156,7 +157,7 @@ class ValidityStudy {
     }
     std::sort(maxima.begin(), maxima.end(),
               [](const auto& a, const auto& b) { return a.first > b.first; });
-    // The worst deviations come first: a deputy that misses by far ends the trial.
+    // The worst deviations come first, because a deputy that misses by far ends the trial.
     std::vector<Vector6> samples;
     for (const auto& [size, deviation] : maxima) samples.push_back(deviation);
     samples.insert(samples.end(), samples_.begin(), samples_.end());
@@ -171,7 +172,7 @@ class ValidityStudy {
     result_.flight_floor_m = rounding * metres_;
     const LimitCoordinates names = limit_coordinates(propagation, flow, settings_.frame);
     const std::vector<double> sizes = slice_sizes();
-    double share = 0;  // of the time's orders that are done
+    double share = 0;  // fraction of the time's orders that are done
     FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
       ++result_.flights;
       if (!progress_) return;
@@ -188,11 +189,11 @@ class ValidityStudy {
                    largest_separation_);
       entry.predicted_m = predicted * metres_;
       const Stopwatch watch(result_.proof_seconds);
-      // The worst deviations for an order's error are at first those of the next degree, or of the
-      // last one known.
+      // At first the worst deviations for an order's error are taken to be those of the next
+      // degree, or of the last degree known.
       flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
       prove(deputies, predicted, entry);
-      constexpr double clear = 30;  // of the rounding, for differences of misses
+      constexpr double clear = 30;  // multiple of the rounding that differences of misses need
       if (!entry.is_at_limit && !entry.is_at_wall &&
           entry.miss_m > clear * result_.flight_floor_m) {
         entry.limit = reach_limit(deputies, order, entry.proved_m / metres_ * worst_.direction,
@@ -203,7 +204,7 @@ class ValidityStudy {
     result_.points.push_back(std::move(point));
   }
 
-  /// The largest size of each degree's part of the position; degree N + 1 is extrapolated.
+  /// The largest size of each degree's contribution to the position; degree N + 1 is extrapolated.
   std::vector<double> slice_sizes() {
     std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
     for (int d = 1; d <= scene_.order; ++d) {
@@ -213,15 +214,15 @@ class ValidityStudy {
       }
     }
     const std::size_t last = sizes.size() - 2;
-    // Order 1 has one degree and no ratio; 1 over the chief's distance is taken for it.
+    // Order 1 has one degree and hence no ratio; 1 over the chief's distance is taken instead.
     const double ratio =
         last >= 2 && sizes[last - 1] > 0 ? sizes[last] / sizes[last - 1] : 1 / distance_;
     sizes[last + 1] = sizes[last] * ratio;
     return sizes;
   }
 
-  /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown.
-  /// `misses_` has those of all that were flown.
+  /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown. Fills
+  /// `misses_` with the misses of all that were flown.
   double largest_miss(FlownDeputies& deputies, int order, double separation) {
     misses_.clear();
     double largest = 0;
@@ -233,8 +234,8 @@ class ValidityStudy {
     return largest;
   }
 
-  /// The worst deputy at a separation that ascents find from the worst samples there, as far from
-  /// each other as samples go; what they find is flown from then on.
+  /// The worst deputy at a separation that ascents find, starting from the worst samples, which are
+  /// chosen far apart. The deputies that are found are added to the samples.
   FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation,
                                 std::vector<FlownDeputies::Worst> samples) {
     constexpr std::size_t most_starts = 6;
@@ -257,18 +258,19 @@ class ValidityStudy {
     return worst;
   }
 
-  /// Whether the miss jumps between a separation that holds and one that does not: a few deputies
-  /// escape, fall or leave the chart there, and no power of the separation describes the others.
+  /// Whether the miss jumps between a separation that holds and one that does not. There a few
+  /// deputies escape, fall or leave the chart, and the others do not show this by a power of the
+  /// separation.
   static bool is_wall(double good, double good_miss, double bad, double bad_miss) {
-    constexpr double steepest_law = 30;  // degree; orders end at 10 or so
+    constexpr double steepest_law = 30;  // in degrees; orders end at about 10
     return !(bad_miss <= good_miss * std::pow(bad / good, steepest_law));
   }
 
-  /// The miss grows as the separation to the power order + 1: from the prediction on, the next
-  /// separation tried is the one at which that law meets the tolerance, until the largest that
-  /// holds is known to a few percent. Then worse deputies are looked for there; while there are
-  /// such beyond the tolerance, the same begins anew with them. The few deputies at a wall are not
-  /// found by a search, so that the separation told keeps clear of it.
+  /// Finds the largest separation that holds. The miss grows as the separation to the power order +
+  /// 1. Starting from the prediction, the next separation that is tried is the one at which this
+  /// law meets the tolerance, until the largest that holds is known to a few percent. Then worse
+  /// deputies are sought there; if one is beyond the tolerance, the search is repeated with it. The
+  /// few deputies at a wall are not found by a search, so that the result keeps clear of a wall.
   void prove(FlownDeputies& deputies, double predicted, ValidityEntry& entry) {
     constexpr int most_trials = 40;
     constexpr double close = 1.03;
@@ -304,9 +306,9 @@ class ValidityStudy {
         factor = std::pow(tolerance_ / worst_.miss, 1.0 / (entry.order + 1));
       }
       factor = std::clamp(factor, 0.1, 2.0);
-      // The next trial is a little to the other side, so that the two bounds come together.
+      // The next trial lies slightly on the other side, so that the two bounds approach each other.
       trial *= factor * (trial == good ? 1.01 : 0.99);
-      // Where the miss grows by another law, halving brings them together in its place.
+      // If the miss grows by another law, bisection takes over after this many trials.
       constexpr int few_trials = 4;
       const bool is_slow = k >= few_trials && k % 2 == 0;
       if (good > 0 && bad > 0 && (is_slow || !(trial > good && trial < bad))) {
@@ -317,7 +319,7 @@ class ValidityStudy {
     }
   }
 
-  /// A miss this many times the tolerance needs no more samples.
+  /// After a miss that exceeds the tolerance by this factor, no further samples are needed.
   static constexpr double hopeless = 1e3;
 
   const Scene& scene_;
@@ -325,17 +327,17 @@ class ValidityStudy {
   const ProgressCallback& progress_;
   ComputedProblem problem_;
   double metres_;
-  double distance_;                        ///< of the chief at the start, canonical
-  double largest_separation_;              ///< canonical
-  double tolerance_;                       ///< canonical
-  Matrix6 axes_;                           ///< see make_samples
+  double distance_;            ///< distance of the chief at the start, in canonical units
+  double largest_separation_;  ///< in canonical units
+  double tolerance_;           ///< in canonical units
+  Matrix6 axes_;               ///< see make_samples
   std::vector<Series<double>> positions_;  ///< see linearise_ends
   Matrix<double> variables_;
   std::optional<MonomialValues> values_;
-  std::vector<Vector6> samples_;              ///< of separation 1
-  std::vector<Vector6> flown_samples_;        ///< those that one order is proved on
+  std::vector<Vector6> samples_;              ///< deviations of separation 1
+  std::vector<Vector6> flown_samples_;        ///< samples with which one order is proved
   std::vector<FlownDeputies::Worst> misses_;  ///< see largest_miss
-  FlownDeputies::Worst worst_;                ///< at the separation that is proved
+  FlownDeputies::Worst worst_;                ///< at the separation that is being proved
   double time_ = 0;
   ValidityResult result_;
 };
@@ -367,8 +369,8 @@ ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCa
     try {
       all.results.push_back(ValidityStudy(scene, progress).run(coordinates));
     } catch (const Error& error) {
-      // An orbit may lack some coordinates, and a method may not serve for some; those in which the
-      // orbit was given, it has.
+      // An orbit may lack some coordinates, and a method may not support some; the coordinates in
+      // which the orbit was given always exist.
       const bool is_lack = error.kind() == ErrorKind::numerical || error.kind() == ErrorKind::scene;
       if (!is_lack || coordinates == JetCoordinates::cartesian) throw;
       all.refused.push_back({coordinates, error.what()});
