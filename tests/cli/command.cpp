@@ -30,7 +30,8 @@ Pipe make_pipe() {
   return {ends[0], ends[1]};
 }
 
-/// A pseudo-terminal: what is written to the one end as to a screen comes out of the other.
+/// A pseudo-terminal: the text that is written to one end as to a screen comes out of the other
+/// end.
 Pipe make_terminal() {
   const int screen = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (screen < 0 || ::grantpt(screen) != 0 || ::unlockpt(screen) != 0) {
@@ -48,7 +49,7 @@ void close_if_open(int& descriptor) {
   descriptor = -1;
 }
 
-/// In the child: puts the stream in its place.
+/// In the child process: replaces the stream.
 void connect(Stream stream, const Pipe& pipe, int descriptor) {
   switch (stream) {
     case Stream::captured:
@@ -123,7 +124,7 @@ bool catches(pid_t process, int signal) {
   return false;
 }
 
-/// Whether the process has ended; it is still to be waited for.
+/// Whether the process has ended; its parent must still wait for it.
 bool has_ended(pid_t process) {
   siginfo_t information{};
   return ::waitid(P_PID, static_cast<id_t>(process), &information, WEXITED | WNOHANG | WNOWAIT) ==
@@ -131,7 +132,7 @@ bool has_ended(pid_t process) {
          information.si_pid == process;
 }
 
-/// Waits until the file is there or the process has ended.
+/// Waits until the file exists or the process has ended.
 void wait_for_file(pid_t process, const std::filesystem::path& path) {
   constexpr std::chrono::microseconds interval(20);
   while (!path.empty() && ::access(path.c_str(), F_OK) != 0 && !has_ended(process)) {
@@ -157,7 +158,7 @@ void send(pid_t process, const Kill& kill) {
   ::kill(process, SIGKILL);
 }
 
-/// Reads both streams until the command has closed them; false when time is up.
+/// Reads both streams until the command has closed them; false if the time ran out.
 bool read_streams(Pipe& out, Pipe& err, CommandResult& result, Clock::time_point deadline) {
   while (out.read_end >= 0 || err.read_end >= 0) {
     std::array<pollfd, 2> waiting = {pollfd{out.read_end, POLLIN, 0},
@@ -180,7 +181,7 @@ bool read_streams(Pipe& out, Pipe& err, CommandResult& result, Clock::time_point
   return true;
 }
 
-/// Waits for the end; false when time is up.
+/// Waits for the end; false if the time ran out.
 bool wait_for_end(pid_t process, int& status, rusage& usage, Clock::time_point deadline) {
   while (::wait4(process, &status, WNOHANG, &usage) == 0) {
     if (Clock::now() >= deadline) return false;

@@ -41,7 +41,7 @@ inline Json read_json(const std::filesystem::path& file) { return Json::parse(co
 
 inline Table read_table(const std::filesystem::path& file) { return parse_table(content(file)); }
 
-/// The arguments, and behind them each of the overrides after `--set`.
+/// The arguments, followed by each of the overrides after `--set`.
 inline std::vector<std::string> with_overrides(std::vector<std::string> arguments,
                                                const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) {
@@ -50,14 +50,14 @@ inline std::vector<std::string> with_overrides(std::vector<std::string> argument
   return arguments;
 }
 
-/// Sum of the exponents of a row whose first field is a name and whose last is a coefficient.
+/// Sum of the exponents in a row whose first field is a name and whose last field is a coefficient.
 inline int degree(const std::vector<std::string>& row) {
   int sum = 0;
   for (std::size_t i = 1; i + 1 < row.size(); ++i) sum += std::stoi(row[i]);
   return sum;
 }
 
-/// The labels of a scene's runs that this build has no integrator for, from the scene's text.
+/// The labels of the runs in the scene's text for which this build has no integrator.
 inline std::vector<std::string> labels_not_built(const std::string& integrators,
                                                  const std::string& scene) {
   std::vector<std::string> labels;
@@ -75,7 +75,7 @@ inline std::vector<std::string> labels_not_built(const std::string& integrators,
   return labels;
 }
 
-/// A test in an empty directory of its own, which is removed at the end.
+/// A test in a new empty directory, which is removed at the end.
 class CommandTest : public ::testing::Test {
  protected:
   CommandTest() {
@@ -89,14 +89,14 @@ class CommandTest : public ::testing::Test {
     return directory_ / name;
   }
 
-  /// Runs the command in the directory; its time must not be up.
+  /// Runs the command in the directory; the command must end in time.
   CommandResult hamjet(const std::vector<std::string>& arguments) const {
     const CommandResult result = run_command(arguments, options_);
     EXPECT_FALSE(result.is_timed_out) << result.err;
     return result;
   }
 
-  /// Runs the command, which must succeed without a word on standard error.
+  /// Runs the command, which must succeed and print nothing on standard error.
   CommandResult succeed(const std::vector<std::string>& arguments) const {
     const CommandResult result = hamjet(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -104,7 +104,7 @@ class CommandTest : public ::testing::Test {
     return result;
   }
 
-  /// All that is in the directory (folders too), in order, relative to it.
+  /// The contents of the directory, with folders, in order and relative to it.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(directory_)) {

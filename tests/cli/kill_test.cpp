@@ -27,8 +27,8 @@ class KillTest : public TwoResults {
     return microseconds(std::uniform_int_distribution<std::int64_t>(0, longest.count())(random_));
   }
 
-  /// How long the command takes; or until it makes `path`, at which it is killed. The median of a
-  /// few runs.
+  /// The duration of the command, or the time until it makes `path`, at which it is killed. The
+  /// median of a few runs.
   microseconds measure(const std::vector<std::string>& arguments, const fs::path& path = {}) {
     std::vector<microseconds> times;
     for (int i = 0; i < 5; ++i) {

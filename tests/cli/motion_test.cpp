@@ -2,7 +2,7 @@
 
 #include "command_test.hpp"
 
-// The command `motion`: where the deputy of a scene goes by itself.
+// The command `motion`: the path of a scene's deputy without impulses.
 
 namespace hamjet::test {
 namespace {
@@ -63,7 +63,7 @@ TEST_F(Motion, NeedsADeputyAndATime) {
                {"deputy: no motion in no time"});
 }
 
-// jet.coordinates as a user of the command meets it.
+// Tests jet.coordinates as a user of the command sees it.
 class Coordinates : public Motion {
  protected:
   /// On an inclined orbit, 100 km behind its chief.
@@ -83,7 +83,7 @@ TEST_F(Coordinates, OfFlowBoxesAnswerFarDeputies) {
   const Json boxes = read_json(directory_ / "boxes/summary.json");
   EXPECT_EQ(plain["coordinates"], "cartesian");
   EXPECT_EQ(boxes["coordinates"], "flow-box");
-  // In Kepler's problem nothing is left to the polynomials; what is printed is rounding.
+  // In Kepler's problem the polynomials contain nothing, and the printed errors are rounding.
   EXPECT_LT(boxes["largest_error_m_by_order"][0].get<double>(), 1e-3);
   EXPECT_GT(plain["largest_error_m_by_order"][1].get<double>(), 1);
 }
@@ -100,7 +100,7 @@ TEST_F(Coordinates, AreAllComparedOnTheSameDeputies) {
   const Table table = read_table(directory_ / "all/validity.csv");
   EXPECT_EQ(table.rows.size(), 6U * 2 * 2);  // coordinates, times, orders
   expect_error({"validity", "far.toml", "--coordinates", "polar"}, 2, {"--coordinates"});
-  // The ends may differ, and the option is of both.
+  // The coordinates of the ends may differ, and the option applies to both ends.
   const std::string two = "order = 2\ncoordinates = \"nodal\"\nend_coordinates = \"poincare\"";
   write("two.toml", changed(far(""), "order = 2", two));
   const std::string said = succeed({"validity", "two.toml", "-o", "two"}).out;
@@ -134,7 +134,7 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
   const Json end = read_json(directory_ / "flown/summary.json")["end"];
   EXPECT_NEAR(boxes["rows"][0]["T_m"].get<double>(), end["position_m"][1].get<double>(), 1e-3);
   EXPECT_EQ(boxes["rows"][0]["support"], "inside");
-  // Positions and velocities do not reach so far, and say it.
+  // Polynomials in positions and velocities do not reach so far, as the output says.
   const Json plain = evaluated("far.toml");
   EXPECT_EQ(plain["coordinates"], "cartesian");
   EXPECT_GT(plain["rows"][0]["truncation_m"].is_null()
@@ -144,7 +144,8 @@ TEST_F(Coordinates, OfASceneAreEvaluated) {
   expect_error({"eval", "far.toml", "--run", "gauss", row[0], row[1]}, 2, {"--run"});
 }
 
-// A kind of generating function has no meaning where none is solved, and a word says so.
+// A kind of generating function has no meaning if no generating function is solved, as a warning
+// says.
 TEST_F(Coordinates, HaveNoKindOfGeneratingFunction) {
   const std::string orbit = far("");
   const std::string scene =
@@ -180,11 +181,11 @@ TEST_F(Coordinates, OfASceneAreChanged) {
   EXPECT_EQ(rows("far.toml", changes), boxes);
   EXPECT_EQ(rows("boxes.toml", changes), boxes);
   EXPECT_NE(rows("far.toml", {}), boxes);
-  // The deputy of the same scene changes with it, that of another one does not.
+  // The deputy of the same scene changes with the override, that of another scene does not.
   const std::string near = rows("near.toml", {});
   EXPECT_EQ(rows("far.toml", {"deputy.position_m=[-700,-50,0]"}), near);
   EXPECT_EQ(rows("near.toml", {"deputy.position_m=[-700,-70,0]"}), near);
-  // Of stored results the deputy's scene alone can be changed.
+  // With stored results only the deputy's scene can be changed.
   succeed({"run", "far.toml", "-q", "-o", "stored"});
   const std::vector<std::string> stored = {"eval", "stored", "--deputy", "far.toml", "-q"};
   const std::string moved = succeed(with_overrides(stored, {"deputy.position_m=[-700,-50,0]"})).out;
@@ -198,7 +199,7 @@ TEST_F(Coordinates, OfASceneAreChanged) {
                {"far.toml", "jet.arcs", "hamjet eval"});
 }
 
-// Near escape flow boxes reach less far than positions and velocities, and a word says so.
+// Near escape flow boxes reach less far than positions and velocities, as a note says.
 TEST_F(Coordinates, OfFlowBoxesAreQuestionedNearEscape) {
   write("far.toml", far(""));
   const std::vector<std::string> boxes = {"jet.coordinates=flow-box", "deputy.position_m=[0,-9,0]",

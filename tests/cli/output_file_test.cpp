@@ -24,14 +24,14 @@ class OutputFiles : public CommandTest {
     fs::create_directory(directory_ / "shared");
   }
 
-  /// Each command that writes one file, into the folder `shared`.
+  /// Runs each command that writes one file, into the folder `shared`.
   static std::vector<std::vector<std::string>> commands() {
     return {{"eval", "results", "--deviation", "1,2,3,0,0,0", "-q", "-o", "shared/x.csv"},
             {"convert", "results", "shared/x.csv"},
             {"init", "leo", "-o", "shared/x.csv"}};
   }
 
-  /// Deviations enough for a second of work.
+  /// Enough deviations for a second of work.
   void write_deviations() const {
     std::string text = "R_m,T_m,N_m,vR_m_s,vT_m_s,vN_m_s\n";
     for (int i = 0; i < 300'000; ++i) text += "1.5,2.5,3.5,0.01,0.02,0.03\n";
@@ -44,7 +44,7 @@ class OutputFiles : public CommandTest {
   }
 };
 
-// The names of temporary files were those of machine and process, which anybody can count up.
+// The names of temporary files used to consist of machine and process, which anybody can guess.
 TEST_F(OutputFiles, LinksThatArePlantedForThemAreNotFollowed) {
   write("victim", "precious");
   std::array<char, 64> host{};
@@ -84,7 +84,7 @@ TEST_F(OutputFiles, ALinkInTheirPlaceIsRefused) {
 }
 
 TEST_F(OutputFiles, OneOfEightInitsAtOnceWrites) {
-  // Where the file system can rename without replacing, and where it cannot.
+  // The cases of a file system that can rename without replacing, and of one that cannot.
   for (const char* preload : {"", HAMJET_FAILING_CALLS}) {
 #if defined(__SANITIZE_ADDRESS__)
     if (*preload != '\0') continue;  // the address sanitizer has to be loaded first
@@ -125,14 +125,14 @@ TEST_F(OutputFiles, AKillLeavesNothingOfThem) {
     options_.kill = Kill{std::chrono::milliseconds(milliseconds)};
     const CommandResult result =
         hamjet({"eval", "results", "--deviations", "start.csv", "-q", "-o", "shared/x.csv"});
-    // Nothing, or all of it if it was too late.
+    // Either nothing is there, or everything if the signal came too late.
     if (result.signal == SIGKILL && !fs::exists(directory_ / "shared/x.csv")) {
       EXPECT_EQ(files_in_shared(), 0U) << milliseconds;
     }
   }
 }
 
-// Then they have a hidden name while they are written.
+// The files then have a hidden name while they are written.
 TEST_F(OutputFiles, ASignalLeavesNothingOfThemWhereFilesMustHaveNames) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer has to be loaded first";

@@ -50,7 +50,7 @@ quantity = "exactness"
 kind = "F1"
 )";
 
-/// Without the lines of measured times, and without the checksum of the whole.
+/// The text without the lines of measured times, and without the checksum of the whole.
 std::string without_times(const std::string& json) {
   std::istringstream lines(json);
   std::string result;
@@ -190,7 +190,7 @@ TEST_F(Reproducibility, NumberOfProcessors) {
   expect_same(expected, alone, "one processor");
 }
 
-// In this locale 1.5 is written 1,5, by whoever asks the C library.
+// In this locale every program that asks the C library writes 1.5 as 1,5.
 TEST_F(Reproducibility, LocaleWithADecimalComma) {
   const Files expected = results(options_);
   const std::filesystem::path locales = directory_ / "locales";

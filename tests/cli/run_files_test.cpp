@@ -144,7 +144,8 @@ TEST_F(RunFiles, SummaryHasTheDocumentedKeys) {
       EXPECT_EQ(run["error_by_degree"][d]["degree"], d);
       EXPECT_TRUE(run["error_by_degree"][d]["relative"].is_number());
       EXPECT_EQ(run["error_estimate_by_degree"][d]["degree"], d);
-      // What the estimate of a single scene may miss; the true error is the reference's.
+      // The factor by which the estimate of a single scene may be wrong; the true error comes from
+      // the reference.
       EXPECT_GE(100 * run["error_estimate_by_degree"][d]["relative"].get<double>(),
                 run["error_by_degree"][d]["relative"].get<double>());
     }
@@ -153,8 +154,8 @@ TEST_F(RunFiles, SummaryHasTheDocumentedKeys) {
 }
 
 TEST_F(RunFiles, AWarningIsInTheSummaryAndOnStandardErrorWhereThereIsNoTable) {
-  // Eight steps of Verlet in a revolution at e = 0.9 follow nothing, and fixed steps promise
-  // nothing.
+  // Eight steps of Verlet in a revolution at e = 0.9 do not resolve the orbit, and fixed steps
+  // promise nothing.
   write("lost.toml",
         "system = { model = \"kepler\", mu_km3_s2 = 398600.4415 }\n"
         "nominal = { a_km = 70000, e = 0.9, i_deg = 0, raan_deg = 0, argp_deg = 0, ta_deg = 180 }\n"
@@ -179,7 +180,7 @@ TEST_F(RunFiles, TheTablesTimesAndPositionErrorsAreThoseOfTheSummary) {
   const Json summary = read_json(directory_ / "results/summary.json");
   for (const Json& run : summary["runs"]) {
     std::istringstream lines(result.out);
-    std::string line, row;  // of the tables, one below the other
+    std::string line, row;  // the tables, one below the other
     while (std::getline(lines, line)) {
       if (line.starts_with(run["label"].get<std::string>() + " ")) row += line + "  ";
     }

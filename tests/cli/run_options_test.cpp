@@ -15,7 +15,7 @@ TEST_F(RunOptions, TableComesOnStandardOutput) {
        {"small\n", "gauss8", "midpoint", "relative error", "results: out/small"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
   }
-  // Neither colours nor anything else that only a terminal understands.
+  // The output has neither colours nor other codes that only a terminal understands.
   EXPECT_EQ(result.out.find('\x1b'), std::string::npos);
   EXPECT_EQ(result.out.find('\r'), std::string::npos);
 }
@@ -67,8 +67,8 @@ TEST_F(RunOptions, ProgressIsShownOnATerminalAndRemoved) {
                                               "integrator.midpoint.step_canonical=1e-5"};
   const CommandResult result = hamjet(arguments);
   EXPECT_EQ(result.exit_code, 0);
-  // The task, how far it is, and the time left; at the end a blank line and the cursor at its
-  // start.
+  // The progress line has the task, its progress and the time left; at the end it is blank, with
+  // the cursor at its start.
   EXPECT_NE(result.err.find("midpoint: "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find(" %, "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find(" s left"), std::string::npos) << result.err;

@@ -3,7 +3,7 @@
 #include "../support/reference_data.hpp"
 #include "command_test.hpp"
 
-// What a run comes to: checks, failures, special durations, subspaces, precision.
+// Outcomes of a run: checks, failures, special durations, subspaces, precision.
 
 namespace hamjet::test {
 namespace {
@@ -43,7 +43,7 @@ TEST_F(Outcomes, FailedCheck) {
   EXPECT_EQ(summary["exit_code"], 1);
   EXPECT_EQ(summary["runs"][0]["failed_checks"].size(), 0U);
   ASSERT_EQ(summary["runs"][1]["failed_checks"].size(), 1U);
-  EXPECT_TRUE(exists("midpoint/jet.csv"));  // the results are there all the same
+  EXPECT_TRUE(exists("midpoint/jet.csv"));  // the results exist nevertheless
 }
 
 TEST_F(Outcomes, FailedCheckIsToldThoughQuiet) {

@@ -2,8 +2,8 @@
 
 #include "command_test.hpp"
 
-// What a scene does not need is not done: for every saving, its counter in summary.json with and
-// without, and its entry in the list of what was skipped.
+// Work that a scene does not need is not done. For every saving the test compares its counter in
+// summary.json with and without the saving, and its entry in the list of skipped work.
 
 namespace hamjet::test {
 namespace {
@@ -46,7 +46,7 @@ class Savings : public CommandTest {
     return summary["runs"][0]["operations"][key].get<double>();
   }
 
-  /// What only the second run does is not done by the first, and the first says so.
+  /// The first run does not do the work that only the second needs, and says so.
   static void expect_saving(const Json& without, const Json& with, const std::string& what,
                             const std::vector<std::string>& counters) {
     EXPECT_TRUE(skips(without, what)) << what << without["skipped"];
@@ -73,7 +73,7 @@ TEST_F(Savings, ForceTerms) {
   EXPECT_TRUE(skips(with_J6, "J7 to J20"));
   expect_saving(run({"system.J4=-1.6e-6", "system.J6=5.4e-7"}), with_J6, "J5", {});
   expect_saving(run({"system.J4=-1.6e-6", "system.J5=-2.3e-7"}), with_J6, "J6 to J20", counters);
-  // A coefficient of zero is none.
+  // A coefficient of zero counts as absent.
   EXPECT_EQ(run({"system.J3=0"})["runs"][0]["operations"],
             run({"system.J3=null"})["runs"][0]["operations"]);
 }
@@ -132,9 +132,9 @@ TEST_F(Savings, PartsOfTheScene) {
   }
   const std::vector<std::pair<const char*, int>> counters = {
       {"reference_runs", 2},        // two of different step size, to know the uncertainty
-      {"inversions", 2},            // one a kind
-      {"floor_inversions", 2},      // of the reference's map, one a kind
-      {"compositions", 2},          // self-check, one a kind
+      {"inversions", 2},            // one for each kind
+      {"floor_inversions", 2},      // steps of the reference's map, one for each kind
+      {"compositions", 2},          // self-check, one for each kind
       {"exactness_residuals", 2},   //
       {"figures", 1},               //
       {"relative_hamiltonians", 2}  // times
@@ -144,7 +144,7 @@ TEST_F(Savings, PartsOfTheScene) {
     EXPECT_EQ(with["operations"][key], expected) << key;
   }
   EXPECT_EQ(count(without, "points_watched_for_figure"), 0);
-  EXPECT_EQ(count(with, "points_watched_for_figure"), 10);  // one a step
+  EXPECT_EQ(count(with, "points_watched_for_figure"), 10);  // one in each step
   EXPECT_GT(with["operations"]["reference_evaluations"], 0);
   EXPECT_EQ(without["operations"]["reference_evaluations"], 0);
 }

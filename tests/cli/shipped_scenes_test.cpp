@@ -10,7 +10,7 @@ namespace {
 
 class ShippedScenes : public CommandTest {
  protected:
-  /// Everything but a file's name fits a terminal.
+  /// Everything except a file's name fits a terminal.
   static void expect_narrow(const std::string& out) {
     std::istringstream lines(out);
     for (std::string line; std::getline(lines, line);) {
@@ -69,7 +69,7 @@ TEST_F(ShippedScenes, RunToTheEnd) {
   EXPECT_GE(count, 17);
 }
 
-// Every study that is shipped reads, and its scenes can be worked on.
+// Every shipped study can be read, and its scenes can be computed.
 TEST_F(ShippedScenes, StudiesAreGood) {
   const std::filesystem::path studies =
       std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes/sweeps";

@@ -29,7 +29,7 @@ class InputFrom {
 
 class StandardInput : public CommandTest {
  protected:
-  /// The command with this text on its standard input.
+  /// Runs the command with this text on its standard input.
   CommandResult with_input(const std::string& text,
                            const std::vector<std::string>& arguments) const {
     const InputFrom input(write("input", text));
@@ -55,7 +55,7 @@ TEST_F(StandardInput, MistakesAreNamed) {
   CommandResult result = with_input(wrong, {"run", "-"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err.rfind("hamjet: <standard input>:14:9: jet.order: ", 0), 0U) << result.err;
-  // A table that the command needs is missed by that name too.
+  // A message about a missing table uses this name too.
   result = with_input(quick_scene(), {"transfer", "-"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(result.err.rfind("hamjet: <standard input>: transfer: missing", 0), 0U) << result.err;

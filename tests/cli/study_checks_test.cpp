@@ -4,7 +4,7 @@
 
 #include "command_test.hpp"
 
-// Self-checks of every study, and what a deputy does that is left to itself.
+// Self-checks of every study, and the motion of a deputy without impulses.
 
 namespace hamjet::test {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(StudyChecks, AChiefBelowTheSurfaceFailsEveryStudy) {
   }
 }
 
-// Down to 7100 km times 0.8.
+// The orbit goes down to 7100 km times 0.8.
 TEST_F(StudyChecks, SoDoAssignmentsUncertaintiesAndLongMotions) {
   const auto scene = [](const std::string& tables) {
     return "[system]\nmodel = \"zonal-gravity\"\nmu_km3_s2 = 398600.4415\nradius_km = "
@@ -154,7 +154,7 @@ TEST_F(StudyChecks, RowsOfAMotionAreAtSeveralPlacesOfItsRevolution) {
   EXPECT_GT(greatest, 500);
 }
 
-// All that a study of formations does works backwards in time.
+// All parts of a study of formations work backwards in time.
 TEST_F(StudyChecks, Backwards) {
   write("back.toml",
         "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 7000\ne = 0.001\n"

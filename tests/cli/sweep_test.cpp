@@ -46,7 +46,7 @@ class Sweep : public CommandTest {
  protected:
   Sweep() {
     write("study.toml", study);
-    // Of an array that the tests themselves may run in.
+    // An array in which the tests themselves may run.
     options_.environment = {{"SLURM_ARRAY_TASK_ID", std::nullopt}};
   }
 
@@ -72,7 +72,7 @@ TEST_F(Sweep, MakesATableAMapAndASummary) {
   const Table rows = read_table(directory_ / "out/study/table.csv");
   EXPECT_EQ(rows.header, "item,nominal.e,nominal.i_deg,condition,energy_error,exit_code,error");
   ASSERT_EQ(rows.rows.size(), 40U);
-  // Each is what `hamjet run` computes for the scene with the same changes.
+  // Each row equals the result of `hamjet run` for the scene with the same changes.
   succeed({"run", "quick.toml", "-q", "--set", "nominal.e=0.3", "--set", "nominal.i_deg=60"});
   const Json run = read_json(directory_ / "out/quick/summary.json")["runs"][0];
   EXPECT_EQ(rows.rows[14][1], "0.3");
@@ -172,7 +172,7 @@ TEST_F(Sweep, FailedItemsAreInTheTable) {
   const std::string rows = table("out");
   EXPECT_NE(rows.find("\n20,1,0,,,3,\"--set nominal.e: out of range, got 1,"), std::string::npos)
       << rows;
-  // They are rows like the others: not computed again.
+  // Failed items are rows like the others, and are not computed again.
   const CommandResult again =
       hamjet({"sweep", "study.toml", "-o", "out", "--resume", "--shard", "1/1"});
   EXPECT_EQ(again.exit_code, 1);
@@ -298,7 +298,7 @@ TEST_F(KillSweep, TakenUpItGivesTheSameTable) {
   std::mt19937_64 random{std::random_device{}()};
   int count_killed = 0;
   for (int i = 0; i < kills; ++i) {
-    // A part of the time each, so that several kills meet one sweep.
+    // Each run has a part of the time, so that several kills meet one sweep.
     options_.kill = Kill{std::chrono::microseconds(
         std::uniform_int_distribution<std::int64_t>(0, time.count() / 2)(random))};
     const CommandResult result =

@@ -54,7 +54,7 @@ class TransferCommand : public CommandTest {
     write("validity.toml", circle + "[validity]\ntimes_orbits = [0.3, 0.9]\n");
   }
 
-  /// The transfer scene with a text in place of another one.
+  /// The transfer scene with one text replaced.
   std::string with(const std::string& from, const std::string& to) const {
     write("changed.toml", circle + changed(transfer, from, to));
     return "changed.toml";
@@ -136,7 +136,7 @@ TEST_F(TransferCommand, OptimalImpulsesAreInTableSummaryAndPage) {
   EXPECT_TRUE(read_json(directory / "summary.json")["optimal_impulses"].is_null());
 }
 
-// Nobody flies to a picometre.
+// A miss of a picometre cannot be reached.
 TEST_F(TransferCommand, OptimalImpulsesThatMissFailTheCommand) {
   const CommandResult result =
       hamjet({"transfer", "transfer.toml", "--set", "transfer.impulses=optimal", "--set",
@@ -204,7 +204,7 @@ TEST_F(TransferCommand, BeyondValidityIsMarkedAndFailsOnlyAStrictScene) {
       << marked.out;
   Json summary = read_json(directory_ / "out/far-transfer/summary.json");
   EXPECT_EQ(summary["counts"]["beyond_tolerance"], 3);
-  // The least is that of an answer which flying has brought to its place.
+  // The cheapest answer is one that flying has brought to its place.
   EXPECT_EQ(summary["best"]["answer"], "refined");
   EXPECT_LE(summary["best"]["miss_m"].get<double>(), 1e-3);
   EXPECT_EQ(summary["counts"]["beyond_tolerance_and_refined_away_from_singularities"],
@@ -223,7 +223,7 @@ TEST_F(TransferCommand, ScenesWithoutTheTableAreShownTheSmallestOne) {
   expect_error({"validity", "circle.toml"}, 3,
                {"validity: missing", "validity = {tolerance_m = 1"});
   expect_error({"assign", "circle.toml"}, 3, {"assignment: missing", "assignment = {deputy = ["});
-  // The examples are as good as they say.
+  // The examples keep the promises of their comments.
   write("small.toml", changed(circle, "[system]",
                               "transfer = {times_s = [1200, 1800], start = "
                               "{position_m = [0, -1000, 0]}, end = {position_m = [0, -100, 0]}}\n"
@@ -343,7 +343,7 @@ TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   succeed({"assign", "assignment.toml", "-q"});
   const Json summary = read_json(directory_ / "out/assignment-assign/summary.json");
   ASSERT_EQ(summary["transfers"].size(), 2U);
-  // Each has a slot 100 m away, and one 1900 m away.
+  // Each deputy has a slot 100 m away, and one 1900 m away.
   EXPECT_EQ(summary["transfers"][0]["slot"], 1);
   EXPECT_EQ(summary["transfers"][1]["slot"], 0);
   const Table costs = read_table(directory_ / "out/assignment-assign/costs.csv");
@@ -351,7 +351,7 @@ TEST_F(TransferCommand, DeputiesGoToTheSlotsThatCostLeast) {
   const double total = std::stod(costs.rows[1].back()) + std::stod(costs.rows[2].back());
   EXPECT_NEAR(summary["total_change_m_s"].get<double>(), total, 1e-6 * total);
   EXPECT_EQ(summary["kind"], "auto");
-  // No generating function answers in a chart.
+  // In a chart no generating function is used.
   succeed({"assign", "assignment.toml", "-q", "-o", "chart", "--set", "jet.coordinates=spherical"});
   EXPECT_TRUE(read_json(directory_ / "chart" / "summary.json")["kind"].is_null());
 }
@@ -368,7 +368,7 @@ TEST_F(TransferCommand, DeputiesAndSlotsOfDifferentNumber) {
   EXPECT_NE(said.out.find(fmt::format("deputies without a slot: {}\n", 1 - sent)),
             std::string::npos)
       << said.out;
-  // The one that is sent is the cheaper one.
+  // The deputy that is sent is the cheaper one.
   const Table costs = read_table(directory_ / "out/uneven-assign/costs.csv");
   ASSERT_EQ(costs.rows.size(), 2U);
   EXPECT_LE(std::stod(costs.rows[sent].back()), std::stod(costs.rows[1 - sent].back()));

@@ -34,7 +34,8 @@ class TwoResults : public CommandTest {
     return result.out;
   }
 
-  /// Which of the two results is in the directory: whole, with nothing of the other.
+  /// Determines which of the two results is in the directory; the result must be whole, without
+  /// parts of the other.
   int found() const {
     const std::string text = evaluate(results);
     const int which = text == evaluated_[0] ? 0 : 1;
@@ -44,7 +45,7 @@ class TwoResults : public CommandTest {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(whole)) {
       const std::filesystem::path name = entry.path().lexically_relative(whole);
       expected.push_back(name.string());
-      // The summary has times in it.
+      // The summary contains times.
       if (entry.is_directory() || name == "summary.json") continue;
       EXPECT_EQ(content(directory_ / results / name), content(entry.path())) << name;
     }
@@ -52,7 +53,7 @@ class TwoResults : public CommandTest {
     for (auto entry = std::filesystem::recursive_directory_iterator(directory_ / results);
          entry != std::filesystem::recursive_directory_iterator(); ++entry) {
       const std::string name = entry->path().lexically_relative(directory_ / results).string();
-      // What was killed may have left its hidden file and folder.
+      // A killed process may have left its hidden file and folder.
       if (name.starts_with(".hamjet-")) {
         entry.disable_recursion_pending();
       } else {
@@ -70,7 +71,7 @@ class TwoResults : public CommandTest {
     return which;
   }
 
-  /// Makes both elsewhere, and the first of them in the directory.
+  /// Makes both results elsewhere, and puts the first of them into the directory.
   void make_results() {
     for (const int which : {0, 1}) {
       const std::string directory = fmt::format("whole{}", which);

@@ -164,8 +164,8 @@ TEST(EnergyConservingStops, StormerAtPerigee) {
 }
 
 // Expected: from the top of the double well, q_0 = 0, the second root is half the first to leading
-// order (V is even: h (b - a)/(2 b) with a = 0), a little less by the first step's own kick; and
-// the other causes by what they mean.
+// order (V is even: h (b - a)/(2 b) with a = 0), and a little less because of the first step's own
+// kick. The other causes are expected by their definitions.
 TEST(EnergyConservingStops, OtherCauses) {
   const DynamicalSystem well = double_well();
   const DynamicalSystem orbit = kepler();

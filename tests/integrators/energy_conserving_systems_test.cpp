@@ -13,7 +13,7 @@
 #include "support/magnitude.hpp"
 
 // Both energy-conserving methods on every system of the paper, on spans on which the step equation
-// has a root: order, energy and way back. Where it has none, the integration stops:
+// has a root: order, energy and way back. If it has no root, the integration stops:
 // energy_conserving_stop_test, and for what is asked of whole revolutions the end of this file.
 //
 // Midpoint runs wherever G = p.V'' p + g.g (g = grad V) keeps its sign: for ever on the oscillator

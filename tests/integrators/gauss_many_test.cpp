@@ -264,7 +264,8 @@ TEST(GaussMany, SaysOfEachOrbitWhatOneAloneSays) {
 }
 
 TEST(GaussMany, SystemsOfFirstOrderAndOfOneDegreeOfFreedomGoInLanesToo) {
-  // A rotor in a rotating frame has no second-order form; its flow is linear, two turns combined.
+  // A rotor in a rotating frame has no second-order form. Its flow is linear, a combination of two
+  // turns.
   const DynamicalSystem rotor =
       make_system("rotor", 2, [](std::span<const Expression> q, std::span<const Expression> p) {
         return (p[0] * p[0] + p[1] * p[1] + q[0] * q[0] + q[1] * q[1]) / 2.0 + q[0] * p[1] -

@@ -131,10 +131,10 @@ TEST(FlowIdentities, Inverse) {
       100);
 }
 
-// All kinds of generating function are of one map: the Legendre transformation of one is the
-// other, formed from the jet. (Any symplectic map will do, so the steps are coarse.) In extended
-// precision, for a kind is as good as the condition of what it inverts; where that is beyond use,
-// the case is passed over.
+// All kinds of generating function belong to one map: the Legendre transformation of one kind
+// equals the other kind formed from the jet. (Any symplectic map will do, so that the steps are
+// coarse.) The test is in extended precision, because a kind is as accurate as the condition of its
+// inversion allows; if the condition is too large, the case is left out.
 TEST(FlowIdentities, KindsOfGeneratingFunction) {
   constexpr double worst_condition = 1e3;
   test::expect_property(

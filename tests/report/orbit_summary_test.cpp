@@ -60,7 +60,7 @@ TEST(OrbitSummary, GoesBelowTheSurfaceOnlyIfItComesThere) {
   EXPECT_FALSE(quarter.is_below_surface());
   const double E = std::acos(1 / e - quarter.lowest_km / (a * e));  // from r = a (1 - e cos E)
   EXPECT_NEAR(E - e * std::sin(E), pi / 2, 1e-9);
-  // A short way from the perigee goes up from it.
+  // A short time after the perigee the height increases.
   EXPECT_NEAR(kepler_summary(elements_of(a, e, 10), "duration_orbits = 0.1").lowest_km,
               a * (1 - e * e) / (1 + e * std::cos(pi / 18)), 1e-8);
 }

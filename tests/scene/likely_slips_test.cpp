@@ -8,8 +8,8 @@
 #include "scene_samples.hpp"
 #include "support/temporary_directory.hpp"
 
-// What can be computed, and is almost surely not what was meant, is said. Expected: the bodies'
-// numbers in other units, from their published values.
+// Input that can be computed but is almost surely not what was meant causes a warning. Expected:
+// the bodies' numbers in other units, from their published values.
 
 namespace hamjet::io {
 namespace {
@@ -48,7 +48,7 @@ TEST(LikelySlips, MetresForKilometres) {
   expect_warning(changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]"),
                  {"warning: file.toml:9:15: nominal.position_km: 7,000,000 km from the centre are",
                   "1097 radii of EARTH", "it must be 7000 km"});
-  // The semi-major axis tells, wherever the start lies on a long ellipse.
+  // The semi-major axis decides, wherever the start lies on a long ellipse.
   expect_warning(changed(orbit, "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]",
                          "a_km = 7_000_000\ne = 0.9\ni_deg = 0\nraan_deg = 0\nargp_deg = 0\n"
                          "ta_deg = 0"),
@@ -144,7 +144,7 @@ TEST(LikelySlips, ElementsThatAreNotThoseOfTheStateAreTold) {
         "the state is used"}) {
     EXPECT_NE(found[0].find(words), std::string::npos) << found[0];
   }
-  // A polar circle, told with its mean anomaly.
+  // A polar circle that is given by its mean anomaly.
   const std::string right =
       without +
       "SEMI_MAJOR_AXIS = 7000\nECCENTRICITY = 0\nINCLINATION = 90\nRA_OF_ASC_NODE = 0\n"

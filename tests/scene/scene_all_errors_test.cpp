@@ -10,8 +10,8 @@
 #include "scene/study_reader.hpp"
 #include "scene_samples.hpp"
 
-// All errors of a scene are said together: a line each, in the order of its lines, and none that
-// only follows from another.
+// All errors of a scene are printed together: one line for each, in the order of the scene's lines,
+// and no error that only follows from another.
 
 namespace hamjet::io {
 namespace {
@@ -23,7 +23,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The message's lines, none where the scene is good.
+/// The lines of the message; empty if the scene is good.
 std::vector<std::string> errors_of(const std::string& scene, ErrorKind kind = ErrorKind::scene,
                                    const std::vector<Override>& overrides = {}) {
   try {
@@ -35,7 +35,7 @@ std::vector<std::string> errors_of(const std::string& scene, ErrorKind kind = Er
   return {};
 }
 
-/// Expects as many lines as there are words, each of which its line holds.
+/// Expects as many lines as there are words; each line contains its word.
 void expect_lines(const std::vector<std::string>& said, const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& line : said) all += line + "\n";
@@ -59,7 +59,7 @@ TEST(AllErrors, AreALineEachInTheOrderOfTheLines) {
                                   "file.toml:17:10: integrator.0.stages: out of range, got 99",
                                   "file.toml:24:17: formation.separation_km: not positive",
                                   "generating_function.kind: unknown key"});
-  // With the start and the jet, the integrators can be judged too.
+  // If the start and the jet are known, the integrators can be checked too.
   scene = changed(changed(orbit, "stages = 8", "stages = 99"), "step_canonical = 0.01", "");
   expect_lines(errors_of(scene), {"file.toml:17:10: integrator.0.stages: out of range",
                                   "integrator.1: missing, got none of a choice"});
@@ -71,13 +71,13 @@ TEST(AllErrors, OneTableHasSeveral) {
                {"file.toml:12:1: jet.oder: unknown key, got oder, did you mean order?",
                 "file.toml:13:1: jet.zzz: unknown key, got zzz, must be one of",
                 "file.toml:14:14: jet.duration_s: wrong type"});
-  // What is missing is said beside what is unknown, less what an unknown key may stand for.
+  // Missing keys are named beside unknown ones, except for those that an unknown key may stand for.
   scene = changed(changed(oscillator, "position_m = [1]", "zzz = 1"), "momentum_kg_m_s = [0]", "");
   expect_lines(errors_of(scene),
                {"nominal.momentum_kg_m_s: missing, must be an array", "nominal.zzz: unknown key"});
   scene = changed(orbit, "separation_km = 10", "seperation_km = 10");
   expect_lines(errors_of(scene), {"formation.seperation_km: unknown key"});
-  // Keys of orbits are judged as soon as the model is known.
+  // Keys of orbits are checked as soon as the model is known.
   scene = changed(changed(orbit, "duration_canonical = 31.4", "duration_orbits = true"),
                   "398600.4415", "0");
   expect_lines(errors_of(scene),
@@ -95,7 +95,7 @@ TEST(AllErrors, OneTableHasSeveral) {
 TEST(AllErrors, WhatFollowsFromAnotherIsNotSaid) {
   expect_lines(errors_of(changed(orbit, "[system]", "[sytem]")), {"sytem: unknown key"});
   expect_lines(errors_of(changed(orbit, "J2 = 1e-3", "J21 = 1")), {"J21: unknown key"});
-  // No key of another model is offered, where another error hides what the model asks for too.
+  // Keys of another model are not suggested, even if another error hides the model's own keys.
   const auto said =
       errors_of(changed(changed(orbit, "J2 = 1e-3", "zzz = 1"), "mu_km3_s2 = ", "mu_km3_s2 = -"));
   expect_lines(said, {"system.mu_km3_s2: not positive", "system.zzz: unknown key"});
@@ -134,9 +134,9 @@ TEST(AllErrors, OfOverridesComeLastAndTheKindIsThatOfAScene) {
                {"--set jet.order: too large"});
 }
 
-/// Every shipped scene with one more key at its end has one error: no other key of it is refused
-/// by what is declared alone.
-// A start in metres is warned of, and an error of the deputy may only follow from it.
+/// Every shipped scene with one more key at its end has exactly one error: the declarations alone
+/// refuse no other key.
+// A start in metres causes a warning, and an error of the deputy may be a mere consequence.
 TEST(AllErrors, AreFollowedByWhatIsWarnedOf) {
   const std::string metres = changed(orbit, "[7000, 0, 0]", "[7000000, 0, 0]");
   const std::string deputy = "[deputy]\nposition_km = [7000, 1]\nvelocity_km_s = [0, 7.5, 1]\n";

@@ -4,7 +4,7 @@
 
 #include "scene_samples.hpp"
 
-// The table [checks]: which self-checks a scene turns off, and what limits it sets.
+// The table [checks]: the self-checks that a scene turns off, and the limits that it sets.
 
 namespace hamjet::io {
 namespace {

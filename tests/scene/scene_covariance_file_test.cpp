@@ -8,8 +8,8 @@
 #include "scene_samples.hpp"
 #include "support/temporary_directory.hpp"
 
-// Covariances from messages: of the chief's and the deputy's moment, centre, state and object, or
-// refused.
+// Covariances from messages must belong to the moment, centre, state and object of the chief or the
+// deputy; other covariances are refused.
 
 namespace hamjet::io {
 namespace {
@@ -24,7 +24,7 @@ std::string dated(const std::string& epoch, const std::string& time_system = "UT
       epoch, time_system, frame, more);
 }
 
-/// The first state of the conjunction, and the second.
+/// The first and the second state of the conjunction.
 const std::string first_state =
     "position_km = [2570.097065, 2244.654904, 6281.497978]\n"
     "velocity_km_s = [4.418769571, 4.833547743, -3.526774282]\n";
@@ -68,7 +68,7 @@ TEST(CovarianceFile, OfAConjunctionIsReadForBothObjects) {
                                    "[uncertainty.collision]\nradius_m = 10\n");
   const StateUncertainty& chief = *scene.uncertainty->chief;
   EXPECT_EQ(chief.frame, RelativeFrame::rtn_inertial);
-  // m^2 as they stand in the file: CT_T and CRDOT_T of OBJECT1, CT_T of OBJECT2.
+  // Values in m^2 as in the file: CT_T and CRDOT_T of OBJECT1, CT_T of OBJECT2.
   EXPECT_NEAR(chief.covariance.matrix()(1, 1), 2533, 1e-9);
   EXPECT_NEAR(chief.covariance.matrix()(3, 1), -2.476, 1e-12);
   EXPECT_NEAR(scene.uncertainty->deputy->covariance.matrix()(1, 1), 2.492e6, 1e-6);
@@ -158,7 +158,7 @@ TEST(CovarianceFile, OfAnotherObjectIsRefusedUnlessItIsNamed) {
                       "must be A2; object = \"OBJECT1\" says that it is meant"});
 }
 
-// A message may be read all the same; what is wrong with it is said once for a table.
+// The message is read in spite of its mistakes, and each mistake is printed once for a table.
 TEST(CovarianceFile, NumbersThatAreNotUsedAreWarnedOf) {
   std::string message = changed(conjunction(), "-7.2            [m/s]", "-7.2 [m]");
   message = changed(message, "14762           [m/s]", "14762 [m]");
@@ -171,14 +171,14 @@ TEST(CovarianceFile, NumbersThatAreNotUsedAreWarnedOf) {
       << warnings[0];
 }
 
-// States in other axes are compared as far as their angle lets them be.
+// States in other axes are compared as far as the angle between the axes allows.
 TEST(CovarianceFile, OtherAxesAreNoOtherState) {
   for (const char* frame : {"J2000", "GCRF", "TOD"}) {
     EXPECT_NO_THROW(parsed_scene(earth_scene() + dated(closest, "UTC", frame) + of_conjunction));
   }
   expect_scene_error(earth_scene(second_state) + dated(closest, "UTC", "TOD") + of_conjunction,
                      {"another state", "EME2000 beside TOD"});
-  // Distances tell axes that turn with the Earth, by an angle that is not known, to their digits.
+  // For axes that turn with the Earth by an unknown angle, the distances decide, to their digits.
   constexpr double rate = 7.292115e-5, angle = 2.1;
   const auto turned = [&](double x, double y, double vx, double vy, std::string message) {
     const double c = std::cos(angle), s = std::sin(angle);
@@ -264,9 +264,9 @@ TEST(CovarianceFile, BetweenTheStatesOfAnEphemerisTheStateIsInterpolated) {
            dated("2020-01-01T00:00:30", "UTC", "EME2000", more) + of_message;
   };
   EXPECT_NO_THROW(scene_beside(header + ephemeris("A"), scene(30, "")));
-  // A fiftieth of a second along the orbit is 150 m.
+  // A fiftieth of a second corresponds to 150 m along the orbit.
   expect_refused_beside(header + ephemeris("A"), scene(30.02, ""), {"another state", "151 m"});
-  // Behind the last state there is none to compare with, which is said.
+  // After the last state there is no state for comparison, as the output says.
   std::string late = header + ephemeris("A");
   late.replace(late.find("00:00:30"), 8, "00:01:30");
   std::string late_scene = scene(90, "");
@@ -275,7 +275,7 @@ TEST(CovarianceFile, BetweenTheStatesOfAnEphemerisTheStateIsInterpolated) {
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
     return text.find("was not compared with the chief's state") != std::string::npos;
   })) << ::testing::PrintToString(warnings);
-  // Of two objects that of the chief's name is meant, and without a name none.
+  // Of two objects the one with the chief's name is used; without a name neither is.
   const std::string two = header + ephemeris("A") + ephemeris("B");
   EXPECT_NO_THROW(scene_beside(two, scene(30, "object_name = \"B\"\n")));
   expect_refused_beside(two, scene(30, ""), {"uncertainty.object: missing", "of A and of B"});

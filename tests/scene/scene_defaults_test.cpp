@@ -6,7 +6,7 @@
 #include "scene/study_reader.hpp"
 #include "scene_samples.hpp"
 
-// What a scene need not say: the smallest one is a field, an orbit and a duration.
+// Tests what a scene may leave out: the smallest scene is a field, an orbit and a duration.
 
 namespace hamjet::io {
 namespace {
@@ -53,7 +53,7 @@ TEST(SceneDefaults, TheOtherStudiesHaveThemToo) {
   EXPECT_EQ(std::get<OptimalControlStudy>(study).title, "free-end");
 }
 
-// The integrator that is not written is named as one that is.
+// The default integrator has the same name as one that is written.
 TEST(SceneDefaults, OverridesFindTheDefaultIntegrator) {
   const auto settings = [](const std::vector<Override>& overrides) {
     return parse_scene(smallest, "a.toml", overrides).integrators;
@@ -70,7 +70,7 @@ TEST(SceneDefaults, OverridesFindTheDefaultIntegrator) {
       },
       ErrorKind::usage, {"no such element, got \"gauss9\", must be gauss8 or an index below 1"},
       "");
-  // What is written stays.
+  // Written values are kept.
   const std::string midpoint = "[[integrator]]\nmethod = \"gauss\"\nstages = 1\ntolerance = 1e-6\n";
   const Scene written =
       parse_scene(smallest + midpoint, "a.toml", {{"integrator.0.tolerance", "1e-7"}});
@@ -78,7 +78,7 @@ TEST(SceneDefaults, OverridesFindTheDefaultIntegrator) {
   EXPECT_EQ(written.integrators[0].stages, 1);
 }
 
-/// The names that comparisons give their series.
+/// The names that comparisons use for their series.
 TEST(SceneDefaults, LabelsAreThoseOfComparisons) {
   const std::string step = "step_canonical = 0.1\n", table = "[[integrator]]\n" + step;
   EXPECT_EQ(

@@ -10,7 +10,7 @@
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "scene_samples.hpp"
 
-// Deputies that are given by their own orbit, in the keys of [nominal].
+// Deputies that are given by an orbit of their own, in the keys of [nominal].
 
 namespace hamjet::io {
 namespace {
@@ -83,7 +83,7 @@ Scene scene_about_the_earth(const std::string& nominal, const std::string& deput
       "file.toml");
 }
 
-// On one circle both turn alike: nothing moves as seen from the turning axes.
+// On one circle both turn at the same rate: nothing moves as seen from the turning axes.
 TEST(SceneDeputy, ADeputyOnTheChiefsCircleIsAtRest) {
   const double angle_deg = 0.1;
   const double angle = angle_deg * std::numbers::pi / 180;
@@ -162,7 +162,7 @@ TEST(SceneDeputy, StartsAndEndsHaveOrbitsToo) {
   expect_near(scene.transfer->start.velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   expect_near(scene.assignment->deputies[0].velocity_m_s, {1.375, 1.5, 0.5}, 1e-10);
   EXPECT_TRUE(scene.transfer->end.is_along_axes());
-  // At arrival the chief is elsewhere, so that an orbit stays as it is, in units of 4 km.
+  // At arrival the chief is elsewhere, so that an orbit keeps its numbers, in units of 4 km.
   const ArrivalState& slot = scene.assignment->slots[0];
   ASSERT_TRUE(slot.own_state.has_value());
   EXPECT_EQ((*slot.own_state)[0] * 4, 4.004);
@@ -170,7 +170,7 @@ TEST(SceneDeputy, StartsAndEndsHaveOrbitsToo) {
   ASSERT_TRUE(in_form.transfer->end.in_form.has_value());
   EXPECT_EQ(in_form.transfer->end.in_form->form, DeputyForm::curvilinear);
   EXPECT_EQ(in_form.transfer->end.in_form->numbers, (std::array<double, 6>{0, 4, 0, 0, 0, 2}));
-  // A message is of a moment, and an arrival of as many as there are times.
+  // A message is for one moment, but there are as many arrivals as times.
   expect_scene_error(circle + tables("opm_file = \"a.opm\"\n", relative),
                      {"transfer.end.opm_file: unknown key"});
   expect_scene_error(circle + tables(relative, "position_m = [0, 1, 0]\narc_m = 4\n"),
@@ -258,7 +258,7 @@ TEST(SceneDeputy, OfAMessageIsOfTheChiefsMomentAxesAndCentre) {
   const std::string same = changed(dated("2021-06-03T00:00:00", "TOD"), "[42164, 0, 0]",
                                    "[6655.9942, -40218.5751, -82.9177]");
   EXPECT_NO_THROW(read(changed(same, "[0, 3.07, 0]", "[3.11548208, 0.47042605, -0.00101495]")));
-  // It is followed by the warning that this centre has not the mu of the Earth.
+  // A warning follows that this centre does not have the mu of the Earth.
   expect_error(ErrorKind::scene,
                "deputy.opm_file: a state about another centre than the chief's, got EARTH, must be "
                "EARTH BARYCENTER\nwarning: ",
@@ -272,7 +272,7 @@ TEST(SceneDeputy, OfACollisionMayBeAnywhere) {
   const auto start = [&](const std::string& deputy, const std::string& tables) {
     return deputy_scene("[deputy]\nframe = \"inertial\"\n" + deputy + tables);
   };
-  // From the other side, against the chief's motion.
+  // The deputy comes from the other side, against the chief's motion.
   const std::string opposite = "position_km = [-4, 0, 0]\nvelocity_km_s = [0, 0.5, 0]\n";
   const Scene met = start(opposite, collision);
   EXPECT_EQ(met.deputy->start.position_m, Eigen::Vector3d(-8000, 0, 0));

@@ -10,7 +10,7 @@
 #include "scene_samples.hpp"
 #include "support/errors.hpp"
 
-// Size and shape of an orbit, and the place on it, in every way that a scene may say them.
+// Size and shape of an orbit, and the place on it, in every way that a scene may give them.
 // Expected: the same orbit by a_km, e, argp_deg and ta_deg.
 
 namespace hamjet::io {
@@ -31,7 +31,8 @@ void expect_refused(const std::string& nominal, const std::vector<std::string>& 
 
 constexpr const char* orbit_plane = "i_deg = 63.4\nraan_deg = 30\n";
 
-/// `tolerance` is relative to the largest number, which numbers of a scene are rounded to.
+/// `tolerance` is relative to the largest number, which determines the rounding of a scene's
+/// numbers.
 void expect_same_start(const Scene& found, const Scene& expected, double tolerance) {
   const double length = expected.units.length_km, speed = length / expected.units.time_s;
   for (std::size_t i = 0; i < 6; ++i) {

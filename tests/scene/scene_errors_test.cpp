@@ -147,7 +147,7 @@ TEST(SceneErrors, Nominal) {
                  {"position_km", "postion_km", {"did you mean position_km?"}},
                  {"position_km", "position", {"did you mean position_km?"}},
                  {"position_km", "position_m", {"the model zonal-gravity has no key position_m"}}});
-  // What is no angle is refused.
+  // A value that is not an angle is refused.
   const auto refuse_angle = [&](const std::string& from, const std::string& to,
                                 const std::string& word) {
     expect_scene_error(changed(with(elements("0")), from, to), {word});
@@ -166,8 +166,8 @@ TEST(SceneErrors, Nominal) {
                  {"position_m", "a_km", {"the model harmonic-oscillator has no key a_km"}}});
 }
 
-// A suggestion never leads to other physics: what differs in a digit or in a symbol is another
-// quantity, and what other programs call otherwise is said in words.
+// A suggestion never leads to other physics: a key that differs in a digit or in a symbol is
+// another quantity, and names of other programs are explained in words.
 TEST(SceneErrors, NoSuggestionIsOtherPhysics) {
   const char* cartesian = "position_km = [7000, 0, 0]\nvelocity_km_s = [0, 7.5, 1]\n";
   const auto message = [](const std::string& scene) -> std::string {

@@ -10,8 +10,8 @@
 #include "scene_samples.hpp"
 #include "support/temporary_directory.hpp"
 
-// Bad input before the schema is looked at: files, bytes, TOML syntax, overrides. What is expected
-// is the documentation of read_scene, with offsets, lines and columns counted by hand.
+// Bad input that is found before the schema is checked: files, bytes, TOML syntax, overrides.
+// Expected: the documentation of read_scene, with offsets, lines and columns counted by hand.
 
 namespace hamjet::io {
 namespace {
@@ -67,7 +67,7 @@ TEST(SceneInputErrors, NotAsciiOutsideQuotes) {
   expect_scene_error("title = \u201cx\u201d\n", refused("1:9", "\u201c"));
   // Line ends that could break a terminal's line are escaped.
   expect_scene_error("\u2028schema = 1\n", refused("1:1", "\\xe2\\x80\\xa8"));
-  // What the parser does not take for a string is none.
+  // Text that the parser does not take for a string is not a string.
   for (const std::string text :
        {"a = 5\"\u0498.\"", "a = (\"\u0498\"", "a\"\u0498\" = 1", "a = \"\"'\u0498'",
         "a = 'x''\u0498'", "a = 2=\"\u0498", "a = 2[\"\u0498", "a = 2{'\u0498", "a = 2.\"\u0498",
@@ -104,7 +104,7 @@ TEST(SceneInputErrors, DeepNesting) {
 
 TEST(SceneInputErrors, QuotesStayShort) {
   expect_scene_error(std::string(5000, 'k') + " = 1\n" + orbit, {std::string(80, 'k') + "..."});
-  // An escape is as long as it is shown; found by fuzzing.
+  // An escape is as long as it is printed; found by fuzzing.
   expect_scene_error("\"" + std::string(5000, '\t') + "\" = 1\n" + orbit,
                      {"got \\x09", "\\x09..., must be"});
   expect_error(
@@ -132,7 +132,7 @@ TEST(SceneInputErrors, Overrides) {
   expect_override_error({"jet.order", "0"}, scene, {"--set jet.order: out of range"});
   expect_override_error({"jet.order", "99"}, ErrorKind::too_large,
                         {"--set jet.order", "1609344100"});
-  // A number that does not fit is no text.
+  // A number that does not fit is not read as a text.
   expect_override_error({"jet.order", "1e400"}, scene,
                         {"--set jet.order: out of range, got 1e400, must be a number"});
   expect_override_error({"jet.order", "12345678901234567890"}, scene,
@@ -175,7 +175,7 @@ TEST(SceneInputErrors, OverridesAreNamedOnceAsWritten) {
                           const std::string& start) {
     const std::string message = message_of(key, value);
     EXPECT_EQ(message.substr(0, start.size()), start);
-    // Neither the option nor the table comes up again.
+    // The message names neither the option nor the table again.
     EXPECT_EQ(message.find("integrator.", start.size()), std::string::npos) << message;
     EXPECT_EQ(message.find("--set", start.size()), std::string::npos) << message;
   };
@@ -192,7 +192,7 @@ TEST(SceneInputErrors, OverridesAreNamedOnceAsWritten) {
   starts("jet.variables", "[\"x\", \"w\"]", "--set jet.variables.1: unknown variable");
   starts("nominal", "{}", "--set nominal: no orbit");
   starts("nominal.position_km", "[1e300, 0, 0]", "file.toml:8:1: nominal: out of range");
-  // Whole, however long the label is.
+  // The label is printed whole, however long it is.
   const std::string longest = "integrator." + std::string(100, 'l') + ".require_relative_error";
   starts(longest, "0", "--set " + longest + ": no such element");
 }
@@ -229,7 +229,7 @@ TEST(SceneInputErrors, NullRemovesAKeyOrAnElement) {
                         {"file.toml:11:1: jet: missing, got none of a choice"});
   expect_override_error({"jet.duraton_s", "null"}, usage,
                         {"nothing to remove, got no key \"duraton_s\"", "duration_s?"});
-  // What the table may have but has not is removed already.
+  // Keys that the table may have but does not have count as removed.
   const Scene same = parse_scene(orbit, "x",
                                  {{"jet.duration_s", "null"},
                                   {"figure", "null"},
@@ -269,7 +269,7 @@ TEST_F(SceneFileErrors, NamesMissingPermission) {
   const auto file = directory_ / "secret.toml";
   std::ofstream(file) << orbit;
   std::filesystem::permissions(file, std::filesystem::perms::none);
-  // The superuser may read everything, and is somebody else for a moment.
+  // The superuser may read everything, so that the test becomes another user for a moment.
   const uid_t user = ::geteuid();
   constexpr uid_t nobody = 65534;
   if (user == 0) {

@@ -11,18 +11,18 @@
 #include "scene/study_reader.hpp"
 #include "scene_samples.hpp"
 
-// Where the keys of scenes are tried: in shipped scenes, changed as with --set.
+// The places at which the tests try the keys of scenes: shipped scenes, changed as with --set.
 
 namespace hamjet::io {
 
 /// A key in a scene that can have it.
 struct Place {
-  std::string file = {};  ///< empty: that of the table
+  std::string file = {};  ///< if empty, the scene of the table
   std::vector<Override> changes = {};
-  std::string value = {};  ///< empty: made from the key's form
+  std::string value = {};  ///< if empty, made from the key's form
 };
 
-/// Where the keys of a table, or of one owner of its keys, stand.
+/// The places of the keys of a table, or of one owner of the table's keys.
 inline Place place_of(const std::string& table, std::string_view owner) {
   static const std::string orbit_file = "transfer-sun-synchronous";
   static const std::string oscillator_file = "paper/harmonic-oscillator";
@@ -83,7 +83,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   return own != of_tables.end() ? own->second : Place{orbit_file};
 }
 
-/// What the keys need besides whose values or surroundings do not follow from their forms.
+/// The values and surroundings of keys that do not follow from the keys' forms.
 inline const std::map<std::string, Place>& special_places() {
   static const Override no_duration = {"jet.duration_orbits", "null"};
   static const Override no_count = {"transfer.count", "null"};

@@ -15,9 +15,9 @@
 #include "study_text.hpp"
 #include "sweep/sweep_tables.hpp"
 
-// What the tables declare of their keys is what the readers do: every key is taken, a value just
-// outside its range is refused, and leaving it out is its default. The scenes are those that are
-// shipped, changed as with --set.
+// The declarations of the tables' keys agree with the readers: every key is taken, a value just
+// outside its range is refused, and leaving it out gives its default. The scenes are the shipped
+// ones, changed as with --set.
 
 namespace hamjet::io {
 namespace {
@@ -42,7 +42,7 @@ std::string right_value(const ValueForm& form) {
   return in_array(form, form.has_range() ? number_text(form, form.most) : "1");
 }
 
-/// Values just outside what the form declares.
+/// Values just outside the declared range.
 std::vector<std::string> wrong_values(const ValueForm& form) {
   std::vector<std::string> values;
   if (form.type == ValueForm::Type::boolean) values = {"1", "\"true\""};
@@ -64,7 +64,7 @@ std::vector<std::string> wrong_values(const ValueForm& form) {
   return values;
 }
 
-/// The study as a text, or the message where it is refused, behind "refused: ".
+/// The study as a text; if the study is refused, the message after "refused: ".
 std::string read(const Place& place, const std::string& key, const std::string& value) {
   std::vector<Override> overrides = place.changes;
   overrides.push_back({key, value});
@@ -107,12 +107,12 @@ void check_keys(const TableDescription& table, const std::string& path,
                 std::set<const TableDescription*>& checked) {
   for (const SceneKey& key : table.keys) {
     EXPECT_FALSE(key.help.empty() && key.owners.empty()) << path << ": " << key.name;
-    // The other deputies are read as [deputy] is.
+    // The other deputies are read in the same way as [deputy].
     const bool is_of_deputy = special_places().contains(fmt::format("deputy.{}", key.name));
     const bool is_of_nominal = path == "nominal" || !key.owners.empty();
     if (is_of_deputy && !is_of_nominal && path != "deputy") continue;
     if (key.form.table != nullptr) {
-      // Other commands than `stability` do not look into this one.
+      // Only the command `stability` reads this table.
       if (key.name == "case" || !checked.insert(key.form.table).second) continue;
       const std::string below = path + std::string(path.empty() ? "" : ".") + std::string(key.name);
       check_keys(*key.form.table, key.form.is_array ? below + ".0" : below, checked);
@@ -151,7 +151,7 @@ TEST(SceneKeys, ThePageHasThem) {
       << "renew it by: hamjet list keys > data/scenes/keys/README.md";
 }
 
-/// Names of all keys of a table and of those below.
+/// Names of all keys of a table and of the tables below it.
 void add_names(const TableDescription& table, std::set<std::string_view>& names) {
   for (const SceneKey& key : table.keys) {
     names.insert(key.name);

@@ -164,7 +164,7 @@ TEST(SceneTransfer, TheFrameIsThatOfTheDeputyElseRtn) {
             RelativeFrame::rtn_inertial);
   const std::string deputy = "[deputy]\nposition_m = [1, 0, 0]\nframe = \"inertial\"\n";
   EXPECT_EQ(scene_of(deputy + none).transfer->frame, RelativeFrame::inertial);
-  // Deputies and slots of an assignment likewise, which need neither start nor end.
+  // The same holds for deputies and slots of an assignment, which need neither start nor end.
   const std::string unnamed = changed(assignment, "frame = \"inertial\"\n", "");
   EXPECT_EQ(scene_of(unnamed).transfer->frame, RelativeFrame::rtn_rotating);
   EXPECT_EQ(scene_of(deputy + unnamed).transfer->frame, RelativeFrame::inertial);

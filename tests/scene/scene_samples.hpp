@@ -11,7 +11,7 @@
 #include "support/scenes.hpp"
 #include "support/text.hpp"
 
-// Good scenes to break, and what a test says about the error that follows.
+// Good scenes for tests to break, and checks of the error that follows.
 
 namespace hamjet::io {
 

@@ -279,7 +279,7 @@ TEST(ShippedScenes, AreAllRead) {
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(scenes)) {
     if (entry.path().extension() != ".toml") continue;
-    // The cases of `hamjet stability`, some of which are there to be refused.
+    // Some cases of `hamjet stability` are meant to be refused.
     if (entry.path().parent_path().filename() == "extreme") continue;
     // Studies of `hamjet sweep`, and the scenes that they vary.
     if (entry.path().parent_path().filename() == "sweeps") continue;

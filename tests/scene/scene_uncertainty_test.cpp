@@ -6,7 +6,7 @@
 
 #include "scene_samples.hpp"
 
-// The table [uncertainty], and how bad covariances are refused.
+// The table [uncertainty], and the refusal of bad covariances.
 
 namespace hamjet::io {
 namespace {
@@ -43,7 +43,7 @@ TEST(SceneUncertainty, StandardDeviationsAreASquareRoot) {
   for (Eigen::Index i = 0; i < 6; ++i) {
     EXPECT_EQ(chief.covariance.standard_deviations()[i], expected[static_cast<std::size_t>(i)]);
   }
-  // One time, the end, and no deputy or burn.
+  // There is one time, the end, and neither a deputy nor a burn.
   ASSERT_EQ(scene.uncertainty->times.size(), 1u);
   EXPECT_EQ(scene.uncertainty->times[0], scene.duration);
   EXPECT_FALSE(scene.uncertainty->deputy);
@@ -124,7 +124,7 @@ TEST(SceneUncertainty, BadCovariancesAreRefusedByName) {
          {"uncertainty.position_m.1", "no standard deviation", "-1"});
   refuse("[uncertainty]\nposition_m = [1, 1]\n", {"uncertainty.position_m", "3"});
   refuse("[uncertainty]\nposition_m = 1\n", {"uncertainty.position_m"});
-  // As large as the orbit: a wrong unit.
+  // The deviation is as large as the orbit, which indicates a wrong unit.
   refuse("[uncertainty]\nposition_m = [1e7, 1, 1]\n", {"uncertainty.position_m.0", "7e+06"});
   refuse("[uncertainty]\nposition_km = [1, 1, 1]\n", {"uncertainty.position_km", "unknown"});
   refuse("[uncertainty]\nframe = \"TNW\"\nposition_m = [1, 1, 1]\n", {"uncertainty.frame", "RTN"});

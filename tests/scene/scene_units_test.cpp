@@ -3,7 +3,7 @@
 #include "scene_samples.hpp"
 #include "study_text.hpp"
 
-// The table [units], compensated_summation and the table [case].
+// Tests the table [units], compensated_summation and the table [case].
 
 namespace hamjet::io {
 namespace {
@@ -111,7 +111,7 @@ distance_km = 26000
 sizes_km = [1]
 )";
 
-// To every digit: what is written of a number brings it back.
+// The printed digits of a number give back the same number.
 TEST(SceneUnits, OfTheChiefLeaveNothingOfTheTable) {
   const auto text_of = [](const std::string& text, SceneUnits units) {
     Scene scene = parse_scene(text, "x", {}, units);
@@ -130,8 +130,8 @@ TEST(SceneUnits, OfTheChiefLeaveNothingOfTheTable) {
   }
 }
 
-// The chief's own unit is 8 km, of time 8^(3/2) / 2 s with mu = 4; that which is asked for is 2 km,
-// of time 2^(3/2) / 2 s: a time is an eighth of what is given, a length a quarter.
+// The chief's own unit of length is 8 km, and of time 8^(3/2) / 2 s with mu = 4. The requested
+// units are 2 km and 2^(3/2) / 2 s: a time is an eighth of the given number, a length a quarter.
 TEST(SceneUnits, OfTheChiefTakeCanonicalTimesFromThoseThatAreTold) {
   std::string text =
       changed(changed(state, "mu_km3_s2 = 1", "mu_km3_s2 = 4"), "[0.1, -0.0, 5e-324]", "[8, 0, 0]");
@@ -157,7 +157,7 @@ TEST(SceneUnits, OfTheChiefTakeCanonicalTimesFromThoseThatAreTold) {
   EXPECT_NEAR(told.momentum, 0.5, 1e-15);
   EXPECT_NEAR(told_time(scene, scene.duration), 8, 1e-14);
   EXPECT_EQ(told_state(scene, {1, 0, 0, 0, 0, 0})[0], 4);
-  // Errors tell them as they were given.
+  // Errors quote the numbers as they were given.
   try {
     parse_scene(changed(text, "[2, 8]", "[2, 9]"), "x", {}, SceneUnits::chiefs);
     FAIL();
@@ -190,7 +190,7 @@ TEST(CompensatedSummation, IsOnUnlessAGaussMethodSaysNot) {
                      {"the method fehlberg78 has no key"});
 }
 
-// What a stability case holds is read by `hamjet stability`; here its keys are known.
+// `hamjet stability` reads the contents of a stability case; here only its keys are known.
 TEST(StabilityCase, IsAcceptedInAScene) {
   const std::string text = std::string(state) + "[case]\ngroup = \"Kepler\"\nstate = [\"1\"]\n";
   EXPECT_EQ(parse_scene(text, "x").nominal, parse_scene(state, "x").nominal);

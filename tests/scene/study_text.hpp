@@ -9,11 +9,11 @@
 #include "scene/study_reader.hpp"
 #include "studies/descriptions/settings_fields.hpp"
 
-// Settings that a scene was read into, as a text that two readings can be compared by.
+// The settings that a scene was read into, as a text, so that two readings can be compared.
 
 namespace hamjet::io {
 
-/// All that a key can change of a study, in one text.
+/// All settings of a study that a key can change, in one text.
 class StudyText {
  public:
   template <class Value>

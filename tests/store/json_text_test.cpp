@@ -7,7 +7,7 @@
 
 #include "support/temporary_directory.hpp"
 
-// One rule for all numbers and texts of JSON, whatever they come from.
+// One rule applies to all numbers and texts of JSON, whatever their source.
 
 namespace hamjet::io {
 namespace {
@@ -30,7 +30,7 @@ TEST(JsonText, KeepsNumbersToTheLastBit) {
   }
 }
 
-// The escapes are those of RFC 8259, so that every reader finds the characters that were meant.
+// The escapes are those of RFC 8259, so that every reader finds the original characters.
 TEST(JsonText, EscapesWhatDrivesATerminal) {
   const std::string text = "a\x1b[31m\n\u202eb\u009b\x7f\U000e0041\u00e9\u4e2d";
   const std::string json = json_text(Json(text));
@@ -38,7 +38,7 @@ TEST(JsonText, EscapesWhatDrivesATerminal) {
   EXPECT_EQ(Json::parse(json), text);
 }
 
-// What is written without it would have rules of its own.
+// Code that writes JSON without it would have rules of its own.
 TEST(JsonText, WritesAllThatUsersRead) {
   namespace fs = std::filesystem;
   std::size_t files = 0;

@@ -17,8 +17,7 @@
 #include "support/errors.hpp"
 #include "support/temporary_directory.hpp"
 
-// Sets of results are there whole or not at all, and are noticed when they are no longer what was
-// written.
+// Sets of results exist whole or not at all, and a changed set is noticed.
 
 namespace hamjet::io {
 namespace {
@@ -36,7 +35,7 @@ class ResultSets : public ::testing::Test {
     return output.commit();
   }
 
-  /// All that is in the directory, without the summary.
+  /// The contents of the directory, without the summary.
   Files found() const {
     Files files;
     for (const auto& entry : fs::recursive_directory_iterator(directory_)) {
@@ -119,7 +118,8 @@ TEST_F(ResultSets, AnEarlierSummaryCannotHaveFilesElsewhereRemoved) {
   }
 }
 
-// What is behind a link is not the directory's, though a file of that name would go there.
+// A file behind a link does not belong to the directory, although a file of its name would go
+// there.
 TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
   const fs::path elsewhere = temporary_.path() / "elsewhere";
   fs::create_directories(elsewhere);
@@ -130,7 +130,7 @@ TEST_F(ResultSets, ALinkInPlaceOfAFolderIsNotFollowed) {
                      {"a/x.csv: cannot be written", "/a is a symbolic link", "remove it"}, "link");
   EXPECT_EQ(test::content(elsewhere / "x.csv"), "mine");
   EXPECT_FALSE(fs::exists(directory_ / "summary.json"));
-  // Nor are files removed there that an earlier set had under this name.
+  // Files that an earlier set had under this name are not removed there either.
   fs::remove(directory_ / "a");
   commit(old_);
   fs::remove_all(directory_ / "a");
@@ -157,7 +157,7 @@ TEST_F(ResultSets, ALinkInPlaceOfAFileIsNotReplaced) {
   EXPECT_EQ(test::content(directory_ / "b/z.csv"), "old z");
 }
 
-// Where others may write, they may put something in the place of the hidden folders.
+// If others may write to the directory, they may replace the hidden folders.
 TEST_F(ResultSets, WhatIsPlantedWhereTheyArePreparedIsNotFollowed) {
   const fs::path elsewhere = temporary_.path() / "elsewhere";
   test::put(elsewhere / "files/a/x.csv", "mine");
@@ -266,8 +266,8 @@ TEST_F(ResultSets, WhatIsMissingOrForeignIsNoticed) {
   expect_refused({}, {"summary.json: cannot be read: No such file"});
 }
 
-// What a process leaves that is killed while it puts a set in place: some files are there already,
-// the others still wait beside the summary.
+// The remains of a process that is killed while it puts a set in place: some files are already
+// there, and the others still wait beside the summary.
 TEST_F(ResultSets, PlacingThatWasBrokenOffAnywhereIsCompleted) {
   const std::string summary = commit(new_);
   fs::remove_all(directory_);
@@ -340,7 +340,7 @@ TEST_F(ResultSets, ADirectoryThatWasRemovedMeanwhileIsMadeAnew) {
   output.write("summary.json", "{}");
   output.commit();
   verify({{"a/x.csv", "new x"}});
-  // And another that has its name by now, in use by somebody else, is not written to.
+  // Another file that has the name by now, and that somebody else uses, is not written to.
   fs::remove_all(directory_);
   const OutputDirectory other(directory_);
   test::expect_error([&] { output.write("a/x.csv", "x"); }, ErrorKind::input_output, {"in use"},

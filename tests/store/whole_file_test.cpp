@@ -12,8 +12,7 @@
 #include "support/errors.hpp"
 #include "support/temporary_directory.hpp"
 
-// A file is there whole or not at all, and what somebody has planted where it is written stays as
-// it is.
+// A file exists whole or not at all, and foreign files in its place stay as they are.
 
 namespace hamjet::io {
 namespace {
@@ -58,7 +57,7 @@ TEST_F(WholeFiles, LeaveNoFolderWithoutTheFile) {
   EXPECT_EQ(names(), std::vector<std::string>{});
 }
 
-// The name of this machine and the number of this process are no secret.
+// The names of this machine and of this process are public.
 TEST_F(WholeFiles, WriteThroughNoLinkThatWasPlantedForThem) {
   test::put(folder_ / "victim", "precious");
   std::array<char, 64> host{};

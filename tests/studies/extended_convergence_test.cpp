@@ -5,7 +5,8 @@
 #include "../../src/studies/comparison/convergence_fit.hpp"
 #include "comparison_scenes.hpp"
 
-// Orders of convergence that double precision cannot show: those of theory.
+// Orders of convergence that double precision cannot show; the expected orders are those of the
+// theory.
 
 namespace hamjet {
 namespace {

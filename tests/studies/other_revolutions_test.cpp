@@ -127,7 +127,7 @@ TEST(OtherRevolutions, AreTheOrbitsThatTheEndsAreOf) {
                          transfer.plan.impulses[1].change_m_s.norm();
       nearest_m_s = std::min(nearest_m_s, off);
     }
-    // A millimetre's miss over some revolutions.
+    // The bound is a millimetre's miss over some revolutions.
     EXPECT_LT(nearest_m_s, 1e-5) << one.difference;
     EXPECT_TRUE(result.revolutions->best.has_value());
   }

@@ -23,8 +23,8 @@ void expect_error(ErrorKind kind, const std::string& text, Action&& action) {
   ADD_FAILURE() << "no error was thrown; expected one that says '" << text << "'";
 }
 
-/// Expects an Error of this kind, whose message is one printable line of at most a few lines'
-/// length that holds every one of the words. `about` is said where a test fails.
+/// Expects an Error of this kind, whose message is one printable line (of at most a few lines'
+/// length) with every one of the words. A failure of the test prints `about`.
 template <class Action>
 void expect_error(const Action& action, ErrorKind kind, const std::vector<std::string>& words,
                   const std::string& about) {

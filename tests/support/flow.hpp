@@ -17,14 +17,14 @@
 
 namespace hamjet::test {
 
-/// A jet to be integrated: the system, about which start, over which time, to which order.
+/// A flow whose jet is integrated: the system, the start, the time and the order.
 template <class Real>
 struct Flow {
   DynamicalSystem system;
   std::vector<Real> start;
   Real duration = 0;
   int order = 1;
-  std::vector<std::size_t> variables;  ///< empty: all
+  std::vector<std::size_t> variables;  ///< if empty, all variables
 };
 
 template <class Real = double>
@@ -64,7 +64,7 @@ inline GaussSettings fixed_step(int stages, double step) {
   return settings;
 }
 
-/// The jet by a Gauss method; `statistics` is filled where given.
+/// The jet by a Gauss method; fills `statistics` if it is given.
 template <class Real>
 FlowJet<Real> run_gauss(const Flow<Real>& flow, const GaussSettings& settings = adaptive(),
                         IntegrationStatistics* statistics = nullptr) {
@@ -123,7 +123,7 @@ std::vector<Real> final_state(const FlowJet<Real>& jet) {
   return state;
 }
 
-/// A list run on numbers.
+/// Evaluates a list on numbers.
 template <class Real>
 std::vector<Real> evaluate_list(const OperationList& list, const std::vector<Real>& inputs) {
   const auto space = SeriesSpace::create(inputs.size(), 0);

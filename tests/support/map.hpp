@@ -19,7 +19,7 @@ template <class T>
 PartialInversion<T> inverted_jet(const FlowJet<T>& jet, const char* kind) {
   return inverted_jet(jet, parse_kind(kind, jet.size() / 2));
 }
-/// The second after the first: the deviations of the first are inserted into the second.
+/// The composition of two maps: the deviations of the first are inserted into the second.
 template <class T>
 FlowJet<T> chained(const FlowJet<T>& second, const FlowJet<T>& first) {
   const auto inner = without_constants(first);
@@ -39,7 +39,7 @@ double worst_symplecticity(const FlowJet<T>& jet) {
   return worst;
 }
 
-/// The jet of the paper's orbit after another time than its own.
+/// The jet of the paper's orbit after the given time instead of its own.
 template <class Real>
 FlowJet<Real> paper_jet(double duration, int order, const GaussSettings& settings = adaptive()) {
   auto flow = flow_of<Real>(paper_orbit(), order);
@@ -47,7 +47,8 @@ FlowJet<Real> paper_jet(double duration, int order, const GaussSettings& setting
   return run_gauss(flow, settings);
 }
 
-/// Smallest Kepler period of the paper's orbit over four: every kind is well-conditioned there.
+/// A quarter of the smallest Kepler period of the paper's orbit, after which every kind is
+/// well-conditioned.
 inline constexpr double quarter_period = 2.6820867274609114512;
 
 }  // namespace hamjet::test

@@ -31,13 +31,13 @@ struct Coefficient<Pack<R, Lanes>> {
   static void set(Pack<R, Lanes>& x, int lane, const Real& value) { x.set_lane(lane, value); }
 };
 
-/// Unit round-off times two of the numbers that coefficients are made of.
+/// Unit round-off times two numbers of the kind that coefficients consist of.
 template <class T>
 double epsilon_of() {
   return static_cast<double>(std::numeric_limits<typename Coefficient<T>::Real>::epsilon());
 }
 
-/// Numbers that are the same on every machine and in every run.
+/// Random numbers that are the same on every machine and in every run.
 class RandomNumbers {
  public:
   explicit RandomNumbers(unsigned seed) : engine_(seed) {}
@@ -96,7 +96,7 @@ double largest_of_degree(const Series<T>& u, int degree) {
   return result;
 }
 
-/// The same over all components of a map.
+/// The largest coefficient of one degree over all components of a map.
 template <class T>
 double largest_of_degree(const std::vector<Series<T>>& map, int degree) {
   double result = 0;

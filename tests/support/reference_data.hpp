@@ -38,8 +38,8 @@ struct ReferenceOrbit {
   std::string id;
   ZonalGravity field;
   std::vector<double> start;                  ///< x, y, z, p_x, p_y, p_z; exact
-  double duration = 0;                        ///< exact
-  std::vector<Extended> state;                ///< at the end
+  double duration = 0;                        ///< exact duration
+  std::vector<Extended> state;                ///< state at the end
   std::vector<std::vector<Extended>> matrix;  ///< d end_i / d start_j
   /// The error that half a unit in the last place of the start and of the duration causes.
   std::vector<double> floor;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-// Tables that scenes of several tests are put together from.
+// Tables of which scenes of several tests consist.
 
 namespace hamjet::test {
 
@@ -43,7 +43,7 @@ position_km = [0.1, 0, 0]
 velocity_km_s = [0, 4.358898943540674, 0]
 )";
 
-/// The integrator with eight stages; the limit is its tolerance or its step.
+/// The integrator with eight stages; the limit is the tolerance or the step.
 inline std::string gauss8(const std::string& limit) {
   return "[[integrator]]\nlabel = \"gauss8\"\nmethod = \"gauss\"\nstages = 8\n" + limit + "\n";
 }

@@ -128,7 +128,7 @@ inline DynamicalSystem quadratic_system(const Matrix<double>& symmetric) {
 template <class Derived>
 double largest_entry(const Eigen::MatrixBase<Derived>& values) {
   double largest = 0;
-  // Named, for a view in the loop's head would outlive what it looks at.
+  // The value is named, because a view in the loop's head would outlive the value.
   const typename Derived::PlainObject entries = values;
   for (const auto& x : entries.reshaped()) {
     largest = larger(largest, std::abs(static_cast<double>(x)));

@@ -9,7 +9,7 @@
 
 namespace hamjet::test {
 
-/// A CSV file: its first line, the names of the columns in it, and the rows behind it.
+/// A CSV file: the names of the columns from its first line, and the following rows.
 struct Table {
   std::string header;
   std::vector<std::string> columns;

@@ -11,7 +11,7 @@
 
 namespace hamjet::test {
 
-/// An empty directory of its own, removed with all that is in it at the end.
+/// A new empty directory, removed with its contents at the end.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -8,14 +8,14 @@
 
 namespace hamjet::test {
 
-/// A text in place of another one, which must be there.
+/// Replaces a text, which must occur, by another one.
 inline std::string changed(std::string text, const std::string& from, const std::string& to) {
   const std::size_t position = text.find(from);
   if (position == std::string::npos) throw std::logic_error("not in the text: " + from);
   return text.replace(position, from.size(), to);
 }
 
-/// How often a part stands in a text.
+/// The number of times that a part occurs in a text.
 inline std::size_t occurrences(const std::string& text, const std::string& part) {
   std::size_t found = 0;
   for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++found;
@@ -34,7 +34,7 @@ inline std::size_t widest_line(const std::string& text) {
   return widest;
 }
 
-/// A text as it was before its lines were broken to fit a terminal.
+/// A text as it was before its lines were broken for a terminal.
 inline std::string in_one_line(const std::string& text) {
   std::string line;
   for (const char c : text) {

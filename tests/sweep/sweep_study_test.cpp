@@ -38,7 +38,7 @@ TEST_F(SweepStudies, AGridIsAllCombinationsTheLastAxisFastest) {
   const SweepStudy grid = study(sweep_study);
   ASSERT_EQ(grid.items.size(), 12U);
   EXPECT_EQ(grid.items[0], (std::vector<std::string>{"0", "0"}));
-  // 0.3 and not 0.30000000000000004, which 0.9 / 3 is in binary64.
+  // The value is 0.3 and not 0.30000000000000004, which 0.9 / 3 is in binary64.
   EXPECT_EQ(grid.items[5], (std::vector<std::string>{"0.3", "90.5"}));
   EXPECT_EQ(grid.items[11], (std::vector<std::string>{"0.9", "90.5"}));
   const auto overrides = sweep_overrides(grid, 4);
@@ -165,7 +165,7 @@ TEST_F(SweepStudies, AManifestHoldsTheWholeStudy) {
   EXPECT_EQ(copy.scene_text, sweep_scene);
   EXPECT_EQ(copy.items, original.items);
   EXPECT_EQ(copy.map->value, original.map->value);
-  // Another value, column or letter of the scene is another manifest.
+  // A change of a value, a column or a letter of the scene gives another manifest.
   for (const auto& [from, to] : {std::pair("count = 4", "count = 5"),
                                  {"90.5", "90.25"},
                                  {"nominal_final/0", "nominal_final/1"},

@@ -4,7 +4,7 @@
 
 #include "text/terminal_text.hpp"
 
-// No text that comes from outside moves a cursor or turns the order of what follows.
+// A text from outside can neither move the cursor nor turn the order of the following text.
 
 namespace hamjet::io {
 namespace {

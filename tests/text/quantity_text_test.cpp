@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// Values for people: expected is what a person would write.
+// Values for people: the expected text is what a person would write.
 
 namespace hamjet {
 namespace {
@@ -13,11 +13,11 @@ TEST(QuantityText, HasThreeDigitsAndAPrefix) {
   EXPECT_EQ(length_text(999), "999 m");
   EXPECT_EQ(memory_text(1.2e6), "1.2 MB");
   EXPECT_EQ(length_text(0), "0 m");
-  // Rounding of metres, and no length of atoms.
+  // The rounding of metres is printed, but not lengths of the size of atoms.
   EXPECT_EQ(length_text(2.65e-16), "2.65e-16 m");
 }
 
-// What rounds up to a thousand has the next prefix.
+// A value that rounds up to a thousand has the next prefix.
 TEST(QuantityText, RoundsIntoTheNextPrefix) {
   EXPECT_EQ(length_text(0.9996), "1 m");
   EXPECT_EQ(duration_text(999.7e-6), "1 ms");

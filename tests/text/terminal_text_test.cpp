@@ -7,7 +7,7 @@
 
 #include "support/text.hpp"
 
-// What fits a terminal, by texts whose lines were counted by hand.
+// Texts are fitted to a terminal; the expected lines were counted by hand.
 
 namespace hamjet::io {
 namespace {

@@ -221,10 +221,11 @@ TEST(CollisionProbability, DoesNotBelieveTheWeightsOfAFewDraws) {
 }
 
 TEST(CollisionProbabilityAtLength, OfBeginningInsideIsWhatEntriesLeaveOut) {
-  // To be nearer is to begin so, or to become so: what the two events differ by is the probability
-  // that a normal vector of independent components is in a ball. The orbits bend so much that the
-  // sampled sphere is wider than the radius by a part of a hundred, and paths that begin between
-  // the two spheres are half of a hundredth of that probability.
+  // A deputy that is nearer than the radius at some time either begins nearer or becomes nearer.
+  // The probabilities of the two events differ by the probability that a normal vector of
+  // independent components is in a ball. The orbits bend so much that the sampled sphere is wider
+  // than the radius by a hundredth, and paths that begin between the two spheres make up half of a
+  // hundredth of that probability.
   EncounterProblem problem;
   problem.system = kepler();
   const double s = 1.5e-3;

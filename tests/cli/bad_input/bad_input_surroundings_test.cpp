@@ -174,8 +174,8 @@ TEST_F(Surroundings, TitlesAreTextInPagesAndTables) {
             "</title><script>alert(1)</script>&amp;\\xe2\\x80\\xa8=1+1,\"x\"");
 }
 
-// Row 64. A label, which is what a user names in tables, cannot begin with what a spreadsheet takes
-// for a formula, nor hold a comma.
+// Row 64. A label is the user's name of a run in tables. It cannot begin with a character that
+// starts a formula in spreadsheets, nor contain a comma.
 TEST_F(Surroundings, LabelsAreNoFormulas) {
   for (const char* label : {"=1+1", "+1", "@x", "a,b", "a\\\"b", "../x", "", ".", "summary.json"}) {
     write("bad.toml", changed(quick_scene(), "\"midpoint\"", string("\"") + label + "\""));

@@ -230,7 +230,7 @@ TEST_F(BadInput, AnOverrideHasOneValue) {
   expect_error(
       {"check", "small.toml", "--set", "jet.order=1", "--set", "jet={order=2}"}, 2,
       {"hamjet: --set jet: replaces what --set jet.order has given; must stand before it\n"});
-  // An integrator goes by its label and by its index.
+  // An integrator may be named by its label or by its index.
   expect_error({"check", "small.toml", "--set", "integrator.gauss8.tolerance=1e-9", "--set",
                 "integrator.0.tolerance=1e-10"},
                2,

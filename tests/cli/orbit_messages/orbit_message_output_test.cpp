@@ -77,7 +77,7 @@ TEST_F(OrbitMessages, ARunGoesOnFromWhereAnotherEnded) {
   EXPECT_EQ(second["ephemeris"]["time_system"], "TAI");
   EXPECT_EQ(second["ephemeris"]["object_name"], "CHIEF");
   for (std::size_t i = 0; i < 6; ++i) {
-    // Out and back; the message has 16 digits.
+    // The state goes out and back; the message has 16 digits.
     const double x = first["runs"][0]["nominal_final"][i];
     EXPECT_NEAR(second["nominal_initial"][i].get<double>(), x, 1e-15 * (1 + std::abs(x)));
     EXPECT_NEAR(second["runs"][0]["nominal_final"][i].get<double>(),

@@ -15,7 +15,7 @@ std::string state_alone() {
 }
 
 TEST_F(OrbitMessages, TheOrbitOfAnotherProgramIsFollowed) {
-  // What the force models differ by, some 1e-5 m/s^2, makes less than a metre in a minute.
+  // The difference of the force models, some 1e-5 m/s^2, amounts to less than a metre in a minute.
   write("low.toml", from_message("oem_file = \"low.oem\"\nepoch = \"2020-153T12:01:00Z\"\n"));
   succeed({"run", "low.toml", "-q"});
   const Json summary = read_json(directory_ / "out/low/summary.json");
@@ -56,7 +56,7 @@ TEST_F(OrbitMessages, AFrameOfEpochKeepsItsEpoch) {
 
 TEST_F(OrbitMessages, TheStandardsParametersAreAStart) {
   write("w4.toml", from_message("opm_file = \"standard.opm\"\n"));
-  // Its elements are not those of its state.
+  // The elements of the message are not those of its state.
   const CommandResult result = hamjet({"run", "w4.toml", "-q", "-o", "elsewhere"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(unwrapped(result.err)
@@ -179,7 +179,7 @@ TEST_F(OrbitMessages, TheStateMustBeThere) {
                                       "OTHER GLOBAL SURVEYOR, MARS GLOBAL SURVEYOR"});
   refuse("oem_file = \"two.oem\"\nobject = \"ANOTHER\"\n",
          {"must be one of: OTHER GLOBAL SURVEYOR, MARS GLOBAL SURVEYOR"});
-  // Of one name, and yet two.
+  // The two have one name but are different.
   write("two.oem", changed(io::standard_oem, "OBJECT_ID = 1996-062A", "OBJECT_ID = 1996-062B"));
   refuse("oem_file = \"two.oem\"\n",
          {"nominal.object: missing, got a file of 2 objects", "1996-062B, 1996-062A"});

@@ -59,7 +59,7 @@ std::vector<double> rounding_bounds(const Table& trajectory, double step) {
 
 class CanonicalTransformationCommand : public CommandTest {
  protected:
-  /// The scene with one text in place of another must be refused.
+  /// The scene with one text replaced must be refused.
   void expect_scene_error(const std::string& text, const std::vector<std::string>& words,
                           int exit_code = 3) {
     write("bad.toml", text);
@@ -118,7 +118,7 @@ TEST_F(CanonicalTransformationCommand, GoodRun) {
   EXPECT_EQ(succeed({"run", "well.toml", "-o", "results", "--json"}).out,
             content(directory_ / "results/summary.json"));
 
-  // What a run with other steps leaves is not mixed with it.
+  // The results of a run with other steps are not mixed with the new ones.
   succeed({"run", "well.toml", "-o", "results", "-q", "--set",
            "canonical_transformation.steps_canonical=[0.05]"});
   EXPECT_TRUE(std::filesystem::exists(directory_ / "results/trajectory_step_0.05.csv"));

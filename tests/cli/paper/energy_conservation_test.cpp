@@ -49,7 +49,7 @@ class EnergyConservation : public CommandTest {
   Json summary_;
 };
 
-// A place where nothing is finite is no stop of the method, even where one is expected.
+// A place at which nothing is finite is not a stop of the method, even if a stop is expected.
 TEST_F(EnergyConservation, OverflowIsNoExpectedStop) {
   write("ellipse.toml", R"(schema = 1
 title = "overflow"
@@ -110,7 +110,7 @@ TEST_F(EnergyConservation, RunsToTheEnd) {
 TEST_F(EnergyConservation, DrawsBothCharts) {
   run({}, 0);
   const std::string figure = content(directory_ / "out/figure.svg");
-  // Below the first chart stands the note of what is drawn at the floor.
+  // Below the first chart there is a note on the values that are drawn at the floor.
   EXPECT_NE(figure.find("height=\"1099\""), std::string::npos);
   EXPECT_NE(figure.find("<svg y=\"40\" width=\"900\" height=\"500\">"), std::string::npos);
   EXPECT_NE(figure.find("<svg y=\"599\" width=\"900\" height=\"500\">"), std::string::npos);

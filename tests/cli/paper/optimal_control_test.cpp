@@ -98,7 +98,7 @@ TEST_F(OptimalControl, WrongSizesOfTheEndsSayTheRightOne) {
   refuse("free_end=[\"z\"]", 3,
          {"optimal_control.end", "wrong size", "got 3 numbers", "must be 2", "free end", "x, y"});
   refuse("costate_guess=[1]", 3, {"costate_guess", "got 1 number,", "must be 3"});
-  // From the file itself, with its place.
+  // The message comes from the file itself, with its place.
   write("wrong.toml", changed(loop_scene, "end = [0, 0, 3]", "end = [0, 3]"));
   expect_error({"run", "wrong.toml", "-o", "out"}, 3,
                {"wrong.toml:11:7: optimal_control.end: wrong size, got 2 numbers, must be 3"});
@@ -198,7 +198,7 @@ TEST_F(OptimalControl, RunawayIterationIsNoSolution) {
   refuse("duration=1e300", 3, {"optimal_control.duration", "1e+30"});
 }
 
-// What an earlier run of another study left does not stand beside the new summary.
+// Results that an earlier run of another study left do not stay beside the new summary.
 TEST_F(OptimalControl, EarlierResultsDoNotStayBehind) {
   succeed({"run", "loop.toml", "-o", "out", "-q"});
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/convergence.csv"));

@@ -96,8 +96,8 @@ TEST(LimitedImpulses, NothingIsCheaper) {
   EXPECT_GT(limited, 40);
 }
 
-/// Out of the plane, with a velocity at the node that costs 5 times the mean motion and a metre,
-/// in two revolutions.
+/// Out of the plane, over two revolutions, with a velocity at the node of 5 times the mean motion
+/// and a metre.
 Scene out_of_plane(double most, double gap) {
   Scene scene = metres_from_circle({{0, 0, 0}, {0, 0, 5}}, 4 * std::numbers::pi);
   scene.transfer->largest_impulse_m_s = most / scene.units.time_s;
