@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
+
+#include "bounded/bounded_report.hpp"
+#include "bounded/event_report.hpp"
+#include "bounded/frozen_orbit_report.hpp"
 #include "formation/validity_table.hpp"
 
 namespace hamjet::io {
@@ -20,6 +26,28 @@ TableView declared_validity() {
   result.scene = declaring_scene();
   result.scene.validity.emplace();
   return validity_table(result);
+}
+
+std::vector<TableView> declared_poincare() {
+  FrozenOrbitStudy study;
+  study.scene = declaring_scene();
+  study.state.resize(6);
+  return poincare_tables(study);
+}
+
+std::vector<TableView> declared_event() {
+  const Series<double> zero(SeriesSpace::create(6, 0));
+  EventStudy study{declaring_scene(), {zero, {zero, zero, zero, zero, zero, zero}}, 0, 0, {}};
+  study.scene.event.emplace();
+  return event_tables(study);
+}
+
+std::vector<TableView> declared_bounded() {
+  BoundedFormation formation;
+  formation.scene = declaring_scene();
+  formation.scene.bounded.emplace().box.half_widths_m.emplace();
+  formation.box.emplace().start.resize(6);
+  return bounded_tables(formation);
 }
 
 /// The column's names in CSV, where it is there.
@@ -40,7 +68,14 @@ std::string cells_text(const TableView& table, const TableColumn& column) {
 
 }  // namespace
 
-std::vector<TableView> declared_tables() { return {declared_validity()}; }
+std::vector<TableView> declared_tables() {
+  std::vector<TableView> all = {declared_validity()};
+  for (std::vector<TableView> tables :
+       {declared_poincare(), declared_event(), declared_bounded()}) {
+    for (TableView& table : tables) all.push_back(std::move(table));
+  }
+  return all;
+}
 
 std::string columns_page() {
   std::string text =
@@ -50,7 +85,8 @@ std::string columns_page() {
       "under *of each*. In CSV a field is\nempty, in JSON null and in Python NaN or None where "
       "there is nothing.\n";
   for (const TableView& table : declared_tables()) {
-    text += fmt::format("\n## `{}.csv`\n\n{}", table.name, table.meaning);
+    const bool is_file = std::ranges::any_of(table.columns, &TableColumn::is_in_csv);
+    text += fmt::format("\n## `{}{}`\n\n{}", table.name, is_file ? ".csv" : "", table.meaning);
     if (!table.place.empty()) text += fmt::format(" In summary.json at `{}`.", table.place);
     text += "\n\n| column | CSV | unit | of each | meaning |\n|---|---|---|---|---|\n";
     for (const TableColumn& column : table.columns) {

@@ -18,8 +18,7 @@ namespace hamjet::io {
 template <class Row>
 class ResultTable {
  public:
-  /// `dimensions` are the names of what the rows run over, the last one fastest; rows of a
-  /// dimension without a name are no array of summary.json.
+  /// `dimensions` are the names of what the rows run over, the last one fastest.
   ResultTable(std::string name, std::string place, std::vector<std::string> dimensions,
               std::string meaning)
       : view_{std::move(name), std::move(meaning), std::move(place), {}, {}} {
@@ -77,6 +76,8 @@ class ResultTable {
       });
     }
   }
+  /// Rows are no array of summary.json.
+  void leave_rows_out_of_json() { view_.has_rows_in_json = false; }
   /// Leaves in CSV those columns alone.
   void keep_in_csv(const std::set<std::string>& names) {
     for (TableColumn& column : view_.columns) column.is_in_csv = names.contains(column.name);

@@ -47,7 +47,7 @@ void add_level(const TableView& table, std::size_t level, std::size_t cell, Json
   for (const TableColumn& column : table.columns) {
     if (column.level == level && column.is_in_json) json[column.name] = cell_json(column, cell);
   }
-  if (level == table.dimensions.size() || table.dimensions[level].name.empty()) return;
+  if (level == table.dimensions.size() || !table.has_rows_in_json) return;
   Json& rows = json[table.dimensions[level].name] = Json::array();
   for (std::size_t i = 0; i < table.dimensions[level].length; ++i) {
     Json row;

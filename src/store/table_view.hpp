@@ -48,6 +48,7 @@ struct TableView {
   std::string place;
   std::vector<TableDimension> dimensions;
   std::vector<TableColumn> columns;
+  bool has_rows_in_json = true;
   /// Rows that stand by themselves in summary.json, by JSON pointers.
   std::vector<std::pair<std::size_t, std::string>> places_of_rows = {};
 

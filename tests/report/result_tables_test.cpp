@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <set>
@@ -10,7 +11,8 @@
 #include "../../src/report/declared_tables.hpp"
 #include "../../src/report/formation/validity_table.hpp"
 #include "../../src/report/formation/validity_view.hpp"
-#include "report_tables.hpp"
+#include "bounded_walks.hpp"
+#include "table_walk.hpp"
 #include "transfer_samples.hpp"
 
 // All columns of all tables of results: of made-up results, in which no two numbers are the same,
@@ -21,30 +23,14 @@ namespace {
 
 using namespace report_tables;
 
-/// What a column must hold in one row, as JSON has it, and its unit.
-struct Expected {
-  std::string unit;
-  Json value;
-};
-
-struct Walk {
-  TableView table;
-  std::string csv;
-  Json summary;
-  std::size_t row = 0;
-  std::map<std::string, Expected> columns;
-};
-
 Walk validity_walk() {
   ValidityResult result = sample_validity();
   result.points[1].time = 2.5;
   result.scene.validity->tolerance_m = 3;
   result.scene.validity->semi_axes = {1, 0.5, 0.25};
-  const StudyReport report = validity_report(result, sample_transfer_origin());
   return {validity_table(result),
-          report.files[0].content,
-          Json::parse(report.summary()),
-          3,
+          validity_report(result, sample_transfer_origin()),
+          {3},
           {{"verdict", {"", validity_verdict(result)}},
            {"tolerance_m", {"m", 3}},
            {"time_canonical", {"", 2.5}},
@@ -70,12 +56,22 @@ Walk validity_walk() {
            {"flight_floor_m", {"m", 1e-6}}}};
 }
 
-std::vector<Walk> walks() { return {validity_walk()}; }
+std::vector<Walk> walks() {
+  std::vector<Walk> all = long_motion_walks();
+  all.push_back(validity_walk());
+  return all;
+}
 
 /// The unit that a name ends with, as in "miss_m".
 std::string unit_of_name(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> endings = {
-      {"_m_s", "m/s"}, {"_m", "m"}, {"_s", "s"}, {"_km", "km"}, {"_deg", "deg"}};
+      {"_m_s", "m/s"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_km", "km"},
+      {"_deg", "deg"},
+      {"_m_s_a_day", "m/s a day"},
+      {"_deg_per_revolution", "deg a revolution"}};
   for (const auto& [ending, unit] : endings) {
     if (name.ends_with(ending)) return unit;
   }
@@ -105,7 +101,7 @@ std::vector<std::string> places(const TableView& table, std::size_t level, std::
   }
   std::string place = table.place;
   for (std::size_t i = 0; i < level; ++i) {
-    if (table.dimensions[i].name.empty()) return all;
+    if (!table.has_rows_in_json) return all;
     const std::size_t below = table.count(table.dimensions.size()) / table.count(i + 1);
     place += "/" + table.dimensions[i].name + "/" +
              std::to_string(row / below % table.dimensions[i].length);
@@ -116,7 +112,12 @@ std::vector<std::string> places(const TableView& table, std::size_t level, std::
 
 TEST(ResultTables, HoldTheNumbersOfTheResultInEveryColumn) {
   for (const Walk& walk : walks()) {
-    const Table csv = parse(walk.csv);
+    const Json summary = Json::parse(walk.report.summary());
+    const auto file =
+        std::find_if(walk.report.files.begin(), walk.report.files.end(),
+                     [&](const ReportFile& one) { return one.path == walk.table.name + ".csv"; });
+    const Table csv = file == walk.report.files.end() ? Table() : parse(file->content);
+    const std::size_t row = walk.rows.front();
     EXPECT_EQ(walk.columns.size(), walk.table.columns.size()) << walk.table.name;
     for (const TableColumn& column : walk.table.columns) {
       const std::string name = walk.table.name + "." + column.name;
@@ -129,14 +130,14 @@ TEST(ResultTables, HoldTheNumbersOfTheResultInEveryColumn) {
       for (std::size_t i = 0; column.is_in_csv && i < column.parts.size(); ++i) {
         EXPECT_EQ(unit_of_name(column.parts[i]), unit) << name;
         const bool is_part = column.is_array() && !value.is_null();
-        expect_field(csv.at(walk.row, column.parts[i]),
+        expect_field(csv.at(row, column.parts[i]),
                      is_part ? value.flatten().at("/" + std::to_string(i)) : value, name);
       }
       if (!column.is_in_json) continue;
-      for (const std::string& place : places(walk.table, column.level, walk.row)) {
+      for (const std::string& place : places(walk.table, column.level, row)) {
         const Json::json_pointer pointer(place + "/" + column.name);
-        ASSERT_TRUE(walk.summary.contains(pointer)) << pointer.to_string();
-        EXPECT_EQ(walk.summary[pointer], value) << pointer.to_string();
+        ASSERT_TRUE(summary.contains(pointer)) << pointer.to_string();
+        EXPECT_EQ(summary[pointer], value) << pointer.to_string();
       }
     }
   }
