@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
+
+#include "bounded/bounded_report.hpp"
+#include "bounded/event_report.hpp"
+#include "bounded/frozen_orbit_report.hpp"
 #include "formation/assignment_tables.hpp"
 #include "formation/deputy_motion_report.hpp"
 #include "formation/transfer_tables.hpp"
@@ -47,6 +53,28 @@ AssignmentResult declared_assignment() {
   return result;
 }
 
+std::vector<TableView> declared_poincare() {
+  FrozenOrbitStudy study;
+  study.scene = declaring_scene();
+  study.state.resize(6);
+  return poincare_tables(study);
+}
+
+std::vector<TableView> declared_event() {
+  const Series<double> zero(SeriesSpace::create(6, 0));
+  EventStudy study{declaring_scene(), {zero, {zero, zero, zero, zero, zero, zero}}, 0, 0, {}};
+  study.scene.event.emplace();
+  return event_tables(study);
+}
+
+std::vector<TableView> declared_bounded() {
+  BoundedFormation formation;
+  formation.scene = declaring_scene();
+  formation.scene.bounded.emplace().box.half_widths_m.emplace();
+  formation.box.emplace().start.resize(6);
+  return bounded_tables(formation);
+}
+
 /// The column's names in CSV, where it is there.
 std::string csv_cell(const TableColumn& column) {
   if (!column.is_in_csv) return "-";
@@ -69,7 +97,8 @@ std::vector<TableView> declared_tables() {
   std::vector<TableView> all;
   for (std::vector<TableView> tables :
        {deputy_motion_tables(declared_motion()), transfer_tables(declared_transfers()),
-        assignment_tables(declared_assignment()), validity_tables(declared_validity())}) {
+        assignment_tables(declared_assignment()), validity_tables(declared_validity()),
+        declared_poincare(), declared_event(), declared_bounded()}) {
     for (TableView& table : tables) all.push_back(std::move(table));
   }
   return all;
@@ -83,7 +112,8 @@ std::string columns_page() {
       "under *of each*. In CSV a field is\nempty, in JSON null and in Python NaN or None where "
       "there is nothing.\n";
   for (const TableView& table : declared_tables()) {
-    text += fmt::format("\n## `{}.csv`\n\n{}", table.name, table.meaning);
+    const bool is_file = std::ranges::any_of(table.columns, &TableColumn::is_in_csv);
+    text += fmt::format("\n## `{}{}`\n\n{}", table.name, is_file ? ".csv" : "", table.meaning);
     if (!table.place.empty()) text += fmt::format(" In summary.json at `{}`.", table.place);
     text += "\n\n| column | CSV | unit | of each | meaning |\n|---|---|---|---|---|\n";
     for (const TableColumn& column : table.columns) {

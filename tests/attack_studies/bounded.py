@@ -64,10 +64,20 @@ def judge(judgement, scene, folder):
         judge_box(judgement, scene, run, summary)
 
 
+def starts_of(deputy):
+    """The told initial conditions by form, each by component."""
+    forms = {}
+    for name, value in deputy.items():
+        if "." in name:
+            form, component = name.split(".")
+            forms.setdefault(form, {})[component] = value
+    return forms
+
+
 def judge_deputy(judgement, scene, summary, deputy, period):
     what = f"{deputy['wanted_m']:.6g} m, {deputy['rule']}"
     states = {}
-    for key, numbers in deputy["start"].items():
+    for key, numbers in starts_of(deputy).items():
         numbers = list(numbers.values())
         if key in orbit.FORMS:
             states[key] = orbit.from_form(scene.mu, scene.chief, key, numbers)
@@ -93,18 +103,18 @@ def judge_deputy(judgement, scene, summary, deputy, period):
     if deputy["rule"] in ("poincare-map", "refined") and deputy["wanted_m"]:
         judgement.within(f"{what}: size, as it was wanted (m)", size, deputy["wanted_m"],
                          0.02 * deputy["wanted_m"])
-    drift = deputy["drifts"][-1]
     along, cross, spread = drifts(scene, summary, start, period, size)
     # The rounding of flights in double precision adds up along the track.
     revolutions = summary["revolutions"]
     e = float(scene.e)
     rounding = 3e-14 * float(scene.a) / (1 - e) ** 2 / float(size) * np.sqrt(revolutions)
-    judgement.note("bounded: drift, in roundings", abs(drift["along"] - along) / rounding)
-    judgement.within(f"{what}: drift along the track", drift["along"], along,
+    judgement.note("bounded: drift, in roundings",
+                   abs(deputy["window_along_drift"] - along) / rounding)
+    judgement.within(f"{what}: drift along the track", deputy["window_along_drift"], along,
                      10 * rounding + 1e-4 * abs(along))
-    judgement.within(f"{what}: drift across", drift["cross"], cross,
+    judgement.within(f"{what}: drift across", deputy["window_cross_drift"], cross,
                      10 * rounding + 1e-4 * abs(cross))
-    judgement.within(f"{what}: range along the track", drift["along_range"], spread,
+    judgement.within(f"{what}: range along the track", deputy["window_along_range"], spread,
                      100 * rounding * np.sqrt(revolutions) + 1e-3 * spread)
 
 
@@ -159,12 +169,13 @@ def judge_box(judgement, scene, run, summary):
     judgement.within("box: start (m)", deputy[:3], wanted[:3], 1e-14 * orbit.norm(deputy[:3]))
     member = None
     if box["reference"] == "member":
-        told = summary["deputies"][1 if scene.tables["bounded"]["refine"] else 0]["start"]
+        told = starts_of(summary["deputies"][1 if scene.tables["bounded"]["refine"] else 0])
         member = scene.chief + np.array(list(told["inertial"].values()), dtype=REAL)
     rows = run.table("out", "box.csv")
     end = REAL(box["days"]) * 86400
-    judgement.within("box: sum (m/s)", box["change_m_s"],
-                     sum(float(r["change_m_s"]) for r in rows), 1e-9 * box["change_m_s"] + 1e-12)
+    judgement.within("box: sum (m/s)", box["total_change_m_s"],
+                     sum(float(r["change_m_s"]) for r in rows),
+                     1e-9 * box["total_change_m_s"] + 1e-12)
     now, state, farthest, total = REAL(0), deputy, 0.0, 0.0
     for row in [*rows, None]:
         then = REAL(row["time_s"]) if row else max(end, now)
@@ -183,13 +194,14 @@ def judge_box(judgement, scene, run, summary):
             total += float(orbit.norm(change))
             axes = orbit.axes_of(scene.field.to(scene.chief, now) if now else scene.chief)[0]
             state = np.concatenate([state[:3], state[3:] + change @ axes])
-    judgement.within("box: impulses (m/s)", box["change_m_s"], total, 1e-6 * total + 1e-12)
+    judgement.within("box: impulses (m/s)", box["total_change_m_s"], total, 1e-6 * total + 1e-12)
     # Errors of the flights' rounding add up from return to return, along the track.
     slack = 1e-3 + 1e-12 * float(scene.a) / float(np.min(widths)) * (1 + len(rows))
-    judgement.note("box: farthest less told", farthest - box["farthest"])
+    judgement.note("box: farthest less told", farthest - box["farthest_of_all"])
     # Looks there are 96 a revolution and more near a face.
-    judgement.at_most("box: farthest, in half widths", farthest, box["farthest"] + 0.01 + slack)
-    judgement.at_most("box: farthest as told, in half widths", box["farthest"],
+    judgement.at_most("box: farthest, in half widths", farthest,
+                      box["farthest_of_all"] + 0.01 + slack)
+    judgement.at_most("box: farthest as told, in half widths", box["farthest_of_all"],
                       farthest + 0.05 + slack)
     if farthest > 1.02 + slack:
         judgement.require("box: the deputy is outside, told as held", not box["held"])

@@ -145,7 +145,7 @@ def judge_polynomials(judgement, scene, folder, summary, units):
     reach = orbit.norm(np.array(summary["state_canonical"][:3], dtype=REAL)) * scene.length
     for misses in summary["misses"]:
         amplitude = misses["amplitude_m"]
-        if misses["position_m"] is None:
+        if misses["position_miss_m"] is None:
             judgement.mark(f"deputies of {amplitude:.3g} m were not flown")
             continue
         worst = worst_time = 0
@@ -165,10 +165,11 @@ def judge_polynomials(judgement, scene, folder, summary, units):
             worst_time = max(worst_time, abs(value / slope))
         order = scene.tables["jet"]["order"]
         # Largest of eight and of twelve random directions: they differ by a few times.
-        allowed = 30 * misses["position_m"] + 30 * summary["position_rounding_m"] + 1e-11 * reach
-        judgement.note("event: miss over told", worst / misses["position_m"]
-                       if misses["position_m"] else 0)
+        allowed = (30 * misses["position_miss_m"] + 30 * summary["position_rounding_m"]
+                   + 1e-11 * reach)
+        judgement.note("event: miss over told", worst / misses["position_miss_m"]
+                       if misses["position_miss_m"] else 0)
         judgement.at_most(f"order {order}: miss at {amplitude:.4g} m (m)", worst, allowed)
         judgement.at_most(f"order {order}: miss in time at {amplitude:.4g} m (s)", worst_time,
-                          30 * misses["time_s"] + allowed * 10 / orbit.norm(scene.chief[3:])
+                          30 * misses["time_miss_s"] + allowed * 10 / orbit.norm(scene.chief[3:])
                           + 1e-9 * float(scene.period))

@@ -1,7 +1,9 @@
 """All columns of studies: attributes hold what the CSV files and summary.json of the same study do."""
 
 import dataclasses
+import functools
 import inspect
+import operator
 import pickle
 
 import numpy as np
@@ -11,11 +13,12 @@ import hamjet
 from conftest import SOURCE
 from hamjet import _hamjet
 from hamjet.studies import Columns
+from test_bounded import EVENT, SCENE as BOUNDED, SHORT
 from test_motion import CIRCLES
 from test_relative_motion import TRANSFER, columns
 from test_to_dataframe import VALIDITY
 
-#: The study of each table that is a study's own.
+#: By the name of the study's own table.
 STUDIES = {
     "validity": lambda: hamjet.validity(VALIDITY),
     "motion": lambda: hamjet.motion(CIRCLES),
@@ -25,7 +28,14 @@ STUDIES = {
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
     "assignment": lambda: hamjet.assign(
         SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml", overrides=["transfer.count=3"]),
+    "poincare": lambda: hamjet.poincare(BOUNDED, overrides=SHORT),
+    "event": lambda: hamjet.event(BOUNDED, overrides=EVENT),
+    "bounded": lambda: hamjet.bounded(
+        BOUNDED.with_name("stationkeeping-follower.toml"),
+        overrides=["bounded.revolutions=20", "bounded.box.days=2"]),
 }
+#: Where summary.json has the columns of further tables.
+PLACES = {"frozen_orbit": ["frozen_orbit"], "box": ["box"]}
 #: Columns that summary.json has in another form, or not.
 NOT_IN_JSON = {"best", "not_assigned", "start_change_m_s_by_order", "end_change_m_s_by_order"}
 
@@ -64,48 +74,60 @@ def studied(request, tmp_path_factory):
     return request.param, study, directory
 
 
-def expect_file(path, columns_of, declared):
-    """The columns of a table, and its rows, are those of its CSV file."""
-    file = columns(path.read_text(encoding="utf-8"))
-    assert list(columns_of.table) == list(file)
+def tables(own, study):
+    """A study's own table, and further ones, by name."""
+    return {own: study, **{further: value for further, value in vars(study).items()
+                           if isinstance(value, Columns)}}
+
+
+def expect_file(path, table, declared):
+    """The columns of a table, and its rows, are those of its CSV file; none without a file."""
+    file = columns(path.read_text(encoding="utf-8")) if path.exists() else {}
+    assert list(table.table) == list(file)
     for column, fields in file.items():
-        found = list(columns_of.table[column])
+        found = list(table.table[column])
         assert len(found) == len(fields) and all(map(same, found, fields)), column
         if column in declared and declared[column][2]:
-            entry = values(getattr(columns_of, column))
+            entry = values(getattr(table, column))
             assert len(entry) and all(map(same, entry, fields[::len(fields) // len(entry)])), column
 
 
-def test_all_attributes_are_in_csv_and_json(studied):
-    name, study, directory = studied
-    declared = _hamjet.declarations()[name]
-    expect_file(directory / f"{name}.csv", study, declared)
-    place = study.summary.get(name, study.summary)
+def expect_summary(place, table, declared):
+    """The columns of a table are those of an object in summary.json, or absent in both."""
     for column, (_, _, dimensions) in declared.items():
-        attribute = getattr(study, column)
-        if dimensions and not isinstance(attribute, tuple):
-            assert np.ndim(attribute) == len(dimensions), column
-        if any(isinstance(dimension, str) and not isinstance(place.get(dimension), list)
-               for dimension in dimensions[:1]):
+        names = [d for d in dimensions if isinstance(d, str) and d != "any"]
+        if (names and not isinstance(place.get(names[0]), list)) or column in NOT_IN_JSON:
             continue  # rows are in CSV alone
-        if column in NOT_IN_JSON:
+        found = values(getattr(table, column))
+        if not names and column not in place and all(v is None or v != v for v in found):
             continue
-        expected = entries(place, [d for d in dimensions if isinstance(d, str)], column)
-        found = values(attribute)
+        expected = entries(place, names, column)
         assert len(found) == len(expected) and all(map(same, found, expected)), column
+
+
+def test_all_attributes_are_in_csv_and_json(studied):
+    own, study, directory = studied
+    for name, table in tables(own, study).items():
+        declared = _hamjet.declarations()[name]
+        expect_file(directory / f"{name}.csv", table, declared)
+        for column, (_, _, dimensions) in declared.items():
+            attribute = getattr(table, column)
+            if dimensions and not isinstance(attribute, tuple):
+                assert np.ndim(attribute) == len(dimensions), column
+        if name == own:
+            expect_summary(study.summary.get(name, study.summary), table, declared)
+        elif name in PLACES:
+            expect_summary(functools.reduce(operator.getitem, PLACES[name], study.summary), table, declared)
 
 
 def test_further_tables_are_their_files(studied):
     name, study, directory = studied
-    written = {path.stem for path in directory.glob("*.csv")} - {name}
+    written = {path.stem for path in directory.glob("*.csv")} - {name, "event-map"}  # polynomials
     further = {table: attribute for table, attribute in vars(study).items()
                if isinstance(attribute, Columns)}
     assert written == {table for table, attribute in further.items() if attribute.table}
     for table, attribute in further.items():
-        declared = _hamjet.declarations()[table]
-        assert set(declared) == set(vars(attribute)) - {"table"}
-        if table in written:
-            expect_file(directory / f"{table}.csv", attribute, declared)
+        assert set(_hamjet.declarations()[table]) == set(vars(attribute)) - {"table"}
 
 
 def test_attributes_are_documented_and_fixed(studied):

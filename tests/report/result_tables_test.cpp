@@ -1,25 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <map>
-#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../../src/report/declared_tables.hpp"
-#include "../../src/report/formation/assignment_tables.hpp"
-#include "../../src/report/formation/deputy_motion_report.hpp"
-#include "../../src/report/formation/transfer_tables.hpp"
-#include "../../src/report/formation/transfer_view.hpp"
-#include "../../src/report/formation/validity_table.hpp"
-#include "../../src/report/formation/validity_view.hpp"
-#include "report_tables.hpp"
-#include "transfer_samples.hpp"
+#include "bounded_walks.hpp"
+#include "formation_walks.hpp"
+#include "table_walk.hpp"
 
 // All columns of all tables of results: of made-up results, in which no two numbers are the same,
 // the values are written down here, and CSV and summary.json have them under the declared names.
@@ -29,299 +22,23 @@ namespace {
 
 using namespace report_tables;
 
-/// What a column must hold in a row, as JSON has it, and its unit; and what in further rows.
-struct Expected {
-  std::string unit;
-  Json value;
-  std::vector<Json> further = {};
-};
-
-struct Walk {
-  TableView table;
-  StudyReport report;
-  std::vector<std::size_t> rows;  ///< the first, and the further ones
-  std::map<std::string, Expected> columns;
-};
-
-/// What add_frame declares.
-std::map<std::string, Expected> with_frame(std::map<std::string, Expected> columns) {
-  columns.merge(std::map<std::string, Expected>{{"frame", {"", "RTN"}},
-                                                {"derivatives", {"", "rotating"}},
-                                                {"coordinates", {"", "nodal"}},
-                                                {"end_coordinates", {"", "cartesian"}},
-                                                {"axes", {"", {"R", "T", "N"}}}});
-  return columns;
-}
-
-Json json_of(const Eigen::Vector3d& vector) { return {vector[0], vector[1], vector[2]}; }
-
-constexpr double unit = 927.6;  ///< of time, s, of all samples
-
-Walk validity_walk() {
-  ValidityResult result = sample_validity();
-  result.coordinates.start = JetCoordinates::nodal;
-  result.points[1].time = 2.5;
-  result.scene.validity->tolerance_m = 3;
-  result.scene.validity->semi_axes = {1, 0.5, 0.25};
-  return {validity_table(result),
-          validity_report(result, sample_transfer_origin()),
-          {3},
-          with_frame({{"verdict", {"", validity_verdict(result)}},
-                      {"tolerance_m", {"m", 3}},
-                      {"time_canonical", {"", 2.5}},
-                      {"time_s", {"s", 2.5 * unit}},
-                      {"order", {"", 2}},
-                      {"predicted_m", {"m", 2e4}},
-                      {"proved_m", {"m", 5e5}},
-                      {"miss_m", {"m", 0.2}},
-                      {"at_limit", {"", true}},
-                      {"limit_degree", {"", 2.96875}},
-                      {"limit_start_coordinate", {"", "period"}},
-                      {"limit_start_degree", {"", 2.1875}},
-                      {"limit_end_coordinate", {"", "tau"}},
-                      {"limit_end_share", {"", 0.90625}},
-                      {"semi_axes", {"", {1, 0.5, 0.25}}},
-                      {"samples", {"", 40}},
-                      {"flights", {"", 1234}},
-                      {"flight_floor_m", {"m", 1e-6}}})};
-}
-
-/// A transfer study with all that a scene may ask for; the last time is the best.
-TransferResult whole_transfer() {
-  TransferResult result = sample_transfer();
-  result.coordinates.start = JetCoordinates::nodal;
-  result.chief_error_m = 3e-6;
-  result.times_between = 17;
-  result.scene.transfer->budget_m_s = 20;
-  result.budget_windows = {{1.5, 2.5, true, false}};
-  TransferPoint& best = result.points.back();
-  best.position_condition = 4.5;
-  best.keep_out_ratio = 1.75;
-  best.lowest = 0.875;
-  best.drift.emplace().per_revolution_m = 12.5;
-  result.points[2].exceeds_impulse = true;
-  result.points[4].is_beyond_tolerance = result.points[4].exceeds_impulse = true;
-  ImpulsePlan& plan = result.optimal.emplace().plan.emplace();
-  plan.duration = 6;
-  plan.impulses = {{0.5, {1, 2, 3}}, {6, {-4, 5, 8}}};
-  result.optimal->by_time = {{6, 14.5, 14.75, "why", true}};
-  WaypointPlan way;
-  way.duration = 5;
-  way.impulses = {{0.25, {3, 4, 12}}, {5, {0, 0, 2}}};
-  way.legs.resize(1);
-  way.forbidden = "not this way";
-  result.waypoints.emplace().plans = {way};
-  result.waypoints->best_plan = 0;
-  return result;
-}
-
-StudyReport report_of(const TransferResult& result) {
-  return transfer_report(result, std::nullopt, std::nullopt, sample_transfer_origin());
-}
-
-/// The columns of one transfer, of whole_transfer's last time, in rows 5, 2 and 4.
-std::map<std::string, Expected> transfer_columns_expected(const TransferPoint& point) {
-  const TransferAnswer& shown = *point.refined;
-  const TransferAnswer &first = point.answers[0], &second = point.answers[1];
-  return {{"time_canonical", {"", point.time}},
-          {"time_s", {"s", point.time * unit}},
-          {"kind", {"", "qqq-qqq"}},
-          {"condition", {"", 10.0 / 3}},
-          {"position_condition", {"", point.position_condition}},
-          {"singular_distance_s", {"s", 0.7 * unit}},
-          {"near_singular", {"", false, {true, false}}},
-          {"beyond_tolerance", {"", false, {true, true}}},
-          {"answer", {"", "refined"}},
-          {"exceeds_impulse", {"", false, {true, true}}},
-          {"keep_out_ratio", {"", 1.75}},
-          {"lowest_km", {"km", 0.875 * 7000}},
-          {"below_surface", {"", false, {false, false}}},
-          {"start_change_m_s", {"m/s", json_of(shown.start_change_m_s)}},
-          {"end_change_m_s", {"m/s", json_of(shown.end_change_m_s)}},
-          {"total_change_m_s", {"m/s", shown.total_change_m_s()}},
-          {"miss_m", {"m", 1.0 / 3e4}},
-          {"linear_total_change_m_s", {"m/s", first.total_change_m_s()}},
-          {"linear_miss_m", {"m", 1234.5}},
-          {"miss_m_by_order", {"m", {1234.5, 0.1 + 0.2}}},
-          {"start_change_m_s_by_order",
-           {"m/s", {json_of(first.start_change_m_s), json_of(second.start_change_m_s)}}},
-          {"end_change_m_s_by_order",
-           {"m/s", {json_of(first.end_change_m_s), json_of(second.end_change_m_s)}}},
-          {"refined_total_change_m_s", {"m/s", shown.total_change_m_s()}},
-          {"refined_miss_m", {"m", 1.0 / 3e4}},
-          {"refinement_flights", {"", 2}},
-          {"hamilton_jacobi_residual", {"", 1e-14 / 3}},
-          {"end_drift_m_per_revolution", {"m a revolution", 12.5}},
-          {"failure", {"", nullptr}}};
-}
-
-std::vector<Walk> transfer_walks() {
-  const TransferResult result = whole_transfer();
-  const StudyReport report = report_of(result);
-  std::map<std::string, Expected> columns = transfer_columns_expected(result.points.back());
-  columns.merge(with_frame({{"verdict", {"", transfer_verdict(result)}},
-                            {"best", {"", 5}},
-                            {"is_first_or_last_time", {"", true}},
-                            {"times_between_listed", {"", 17}},
-                            {"flight_floor_m", {"m", 2e-6}},
-                            {"chief_error_m", {"m", 3e-6}},
-                            {"largest_hamilton_jacobi_residual", {"", 1e-14 / 3}},
-                            {"hamilton_jacobi_floor", {"", 1e-15}},
-                            {"steps", {"", 44}},
-                            {"exit_code", {"", 1}}}));
-  // Where nothing was refined, the answer of the highest order is shown.
-  const Json null;
-  for (const std::size_t row : {std::size_t{2}, std::size_t{4}}) {
-    const TransferAnswer& second = result.points[row].answers[1];
-    columns["total_change_m_s"].further.push_back(second.total_change_m_s());
-    columns["miss_m"].further.push_back(second.miss_m);
-    columns["refined_total_change_m_s"].further.push_back(null);
-    columns["refined_miss_m"].further.push_back(null);
-  }
-  std::vector<std::string> kinds;
-  std::vector<double> conditions = result.conditions.values[1];
-  for (const GeneratingFunctionKind& kind : result.conditions.kinds) kinds.push_back(kind.name());
-  return {{transfers_table(result), report, {5, 2, 4}, columns},
-          {singular_times_table(result),
-           report,
-           {0},
-           {{"kind", {"", "qqq-qqq"}},
-            {"time_canonical", {"", 3.01}},
-            {"time_s", {"s", 3.01 * unit}},
-            {"resolution_s", {"s", 2e-9 * unit}},
-            {"smallest_ratio", {"", 1e-17}},
-            {"second_ratio", {"", 0.25}},
-            {"directions_lost", {"", 1}},
-            {"direction_inertial", {"", {0, 0.6, -0.8}}},
-            {"direction_rtn", {"", {0, 0, 1}}}}},
-          {conditions_table(result),
-           report,
-           {1},
-           {{"time_canonical", {"", 2}},
-            {"time_s", {"s", 2 * unit}},
-            {"condition", {"", conditions}},
-            {"kinds", {"", kinds}}}},
-          {budget_windows_table(result),
-           report,
-           {0},
-           {{"first_s", {"s", 1.5 * unit}},
-            {"last_s", {"s", 2.5 * unit}},
-            {"begins_at_first_time", {"", true}},
-            {"ends_at_last_time", {"", false}}}},
-          {optimal_impulses_table(result),
-           report,
-           {1},
-           {{"time_canonical", {"", 6}},
-            {"time_s", {"s", 6 * unit}},
-            {"change_m_s", {"m/s", {-4, 5, 8}}},
-            {"magnitude_m_s", {"m/s", std::sqrt(105)}}}},
-          {least_by_time_table(result),
-           report,
-           {0},
-           {{"time_s", {"s", 6 * unit}},
-            {"linear_change_m_s", {"m/s", 14.5}},
-            {"flown_change_m_s", {"m/s", 14.75}},
-            {"failure", {"", "why"}},
-            {"solver_failed", {"", true}}}},
-          {waypoint_impulses_table(result),
-           report,
-           {0},
-           {{"time_canonical", {"", 0.25}},
-            {"time_s", {"s", 0.25 * unit}},
-            {"change_m_s", {"m/s", {3, 4, 12}}},
-            {"magnitude_m_s", {"m/s", 13}}}},
-          {total_by_time_table(result),
-           report,
-           {0},
-           {{"time_s", {"s", 5 * unit}},
-            {"total_change_m_s", {"m/s", 15}},
-            {"forbidden", {"", "not this way"}}}}};
-}
-
-Walk motion_walk() {
-  DeputyMotion motion;
-  motion.scene = sample_relative_scene();
-  motion.scene.deputy.emplace();
-  motion.coordinates.start = JetCoordinates::nodal;
-  motion.points.resize(2);
-  motion.points[0] = {0, {{3, 4, 12}, {0.5, 0.25, 0.125}}, {0, 0}, 1e-7};
-  motion.points[1] = {6, {{4, -8, 1}, {1.5, 2.5, 3.5}}, {0.375, 0.0625}, 2e-7};
-  motion.flown = sample_trajectory();
-  motion.flight_floor_m = 2e-7;
-  return {deputy_motion_table(motion),
-          deputy_motion_report(motion, sample_transfer_origin()),
-          {1},
-          with_frame({{"verdict", {"", deputy_motion_verdict(motion)}},
-                      {"time_canonical", {"", 6}},
-                      {"time_s", {"s", 6 * unit}},
-                      {"position_m", {"m", {4, -8, 1}}},
-                      {"velocity_m_s", {"m/s", {1.5, 2.5, 3.5}}},
-                      {"separation_m", {"m", 9}},
-                      {"error_m_by_order", {"m", {0.375, 0.0625}}},
-                      {"duration_s", {"s", 6 * unit}},
-                      {"times", {"", 2}},
-                      {"largest_error_m", {"m", 0.0625}},
-                      {"largest_error_m_by_order", {"m", {0.375, 0.0625}}},
-                      {"is_resolved", {"", true}},
-                      {"flight_floor_m", {"m", 2e-7}},
-                      {"exit_code", {"", 0}}})};
-}
-
-std::vector<Walk> assignment_walks() {
-  AssignmentResult result = sample_assignment();
-  result.coordinates.start = JetCoordinates::nodal;
-  result.scene.assignment->deputies.resize(3);
-  result.common_time = 1;
-  result.failure = "one is left";
-  result.pairs = {{0, 1, 1.5, 250}};
-  TransferPoint& point = result.transfers[1].transfer;
-  point.position_condition = 4.5;
-  point.keep_out_ratio = 1.75;
-  point.lowest = 0.875;
-  point.drift.emplace().per_revolution_m = 12.5;
-  const StudyReport report = assignment_report(result);
-  std::map<std::string, Expected> columns = transfer_columns_expected(point);
-  for (auto& [name, column] : columns) column.further.clear();
-  columns.merge(with_frame({{"deputy", {"", 1}},
-                            {"slot", {"", 0}},
-                            {"common_time_s", {"s", 2 * unit}},
-                            {"deputies_without_slot", {"", {2}}},
-                            {"slots_without_deputy", {"", Json::array()}},
-                            {"flight_floor_m", {"m", 1e-6}},
-                            {"not_assigned", {"", "one is left"}},
-                            {"exit_code", {"", 4}}}));
-  return {{assignment_table(result), report, {1}, columns},
-          {costs_table(result),
-           report,
-           {2},
-           {{"deputy", {"", 1}},
-            {"slot", {"", 0}},
-            {"time_canonical", {"", 6}},
-            {"time_s", {"s", 6 * unit}},
-            {"total_change_m_s", {"m/s", 2.25}}}},
-          {pairs_table(result),
-           report,
-           {0},
-           {{"deputy", {"", 0}},
-            {"other_deputy", {"", 1}},
-            {"time_canonical", {"", 1.5}},
-            {"time_s", {"s", 1.5 * unit}},
-            {"least_separation_m", {"m", 250}}}}};
-}
-
 std::vector<Walk> walks() {
-  std::vector<Walk> all = transfer_walks();
-  for (Walk& walk : assignment_walks()) all.push_back(std::move(walk));
-  all.push_back(motion_walk());
-  all.push_back(validity_walk());
+  std::vector<Walk> all = formation_walks();
+  for (Walk& walk : long_motion_walks()) all.push_back(std::move(walk));
   return all;
 }
 
 /// The unit that a name ends with, as in "miss_m".
 std::string unit_of_name(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> endings = {
-      {"_m_s", "m/s"}, {"_m", "m"},     {"_s", "s"},
-      {"_km", "km"},   {"_deg", "deg"}, {"_m_per_revolution", "m a revolution"}};
+      {"_m_s", "m/s"},
+      {"_m", "m"},
+      {"_s", "s"},
+      {"_km", "km"},
+      {"_deg", "deg"},
+      {"_m_s_a_day", "m/s a day"},
+      {"_m_per_revolution", "m a revolution"},
+      {"_deg_per_revolution", "deg a revolution"}};
   static const std::regex by_order("_by_order$|_order_[0-9]+$");
   const std::string quantity = std::regex_replace(name, by_order, "");
   for (const auto& [ending, named] : endings) {

@@ -225,7 +225,7 @@ TEST(BoundedFormation, SaysWhichSizeHasNoDeputy) {
     EXPECT_NE(deputy.failure.find("alone take it"), std::string::npos);
   }
   const auto json = io::bounded_json(formation);
-  EXPECT_TRUE(json["deputies"][0]["start"].is_null());
+  EXPECT_TRUE(json["deputies"][0]["RTN-rotating.R_m"].is_null());
   EXPECT_TRUE(json["deputies"][0]["failure"].is_string());
   EXPECT_EQ(json["exit_code"], 4);
   EXPECT_NE(io::bounded_verdict(formation).find("No deputy"), std::string::npos);

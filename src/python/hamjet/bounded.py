@@ -2,76 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
-from .relative_motion import Flags
 from .results import Floats, Progress
-from .studies import Study
-from .tables import Table, read_table
+from .studies import Columns, Study
 
 
-@dataclass(frozen=True, eq=False)
-class FrozenOrbit(Study):
+class FrozenOrbit(Study, table="poincare"):
     """The frozen orbit of a chief's energy and angular momentum about the axis; immutable.
 
-    What librates about it is told at C amplitudes of the eccentricity vector, by the normal form;
-    without one the arrays are empty.
+    What librates about it is told on circles of the normal form; without one the arrays are empty.
+    The further table ``frozen_orbit`` has the orbit's elements, period and multipliers.
     """
 
-    state_canonical: Floats  #: (6,): on the chief's mean argument of latitude, with its node
-    a_km: float  #: osculating elements there
-    e: float  #: eccentricity
-    i_deg: float  #: inclination
-    argp_deg: float  #: argument of the perigee
-    nodal_period_s: float  #: from section to section
-    residual: float  #: by how much a revolution moves it, in extended precision
-    trace_less_2: float  #: the sum of the two multipliers less 2; stable between -4 and 0
-    stable: bool
-    amplitudes_m: Floats  #: (C,): of the eccentricity vector, times a
-    is_chiefs: Flags  #: (C,): that of the scene's chief
-    rotation_numbers: Floats  #: (C,): turns of the pericentre's pair a revolution
-    mean_nodal_periods_s: Floats  #: (C,)
-    node_deg_per_revolution: Floats  #: (C,)
-    misses: Floats  #: (C,): of flown orbits from the normal form, in parts of the amplitude
-    reach_m: float  #: the amplitude up to which that is below 0.001; NaN without a normal form
-    failure: str  #: not empty: there is no normal form, and why
-    verdict: str  #: what ``hamjet poincare`` says first
-    table: Table = field(repr=False)  #: the columns of ``poincare.csv``, by name
-    _study: _hamjet.PoincareStudy | None = field(repr=False)
+    frozen_orbit: Columns
 
     def __repr__(self) -> str:
-        return shown.of(self, f": a={self.a_km:.7g} km, e={self.e:.6g}, i={self.i_deg:.7g} deg, "
-                        f"argp={self.argp_deg:.6g} deg, {'' if self.stable else 'un'}stable")
+        orbit = self.frozen_orbit
+        return shown.of(self, f": a={orbit.a_km:.7g} km, e={orbit.e:.6g}, i={orbit.i_deg:.7g} deg, "
+                        f"argp={orbit.argp_deg:.6g} deg, {'' if orbit.stable else 'un'}stable")
 
 
-@dataclass(frozen=True, eq=False)
-class Event(Study):
+class Event(Study, table="event"):
     """When a condition holds along an orbit, and where, as polynomials; immutable.
 
     Of the M monomials of the deviations (x, y, z, px, py, pz) of the initial state, in canonical
     units: with ``time_unit_s`` and ``length_km`` the units of time and length.
     """
 
-    time_s: float  #: of the chief's event, after the start
-    state_canonical: Floats  #: (6,): the chief's then
     exponents: Floats  #: (M, 6): of each monomial
     coefficients: Floats  #: (M, 7): of the time, and of x, y, z, px, py, pz at the event
     length_km: float  #: the canonical unit of length
     time_unit_s: float  #: the canonical unit of time
-    amplitudes_m: Floats  #: (A,): deviations of deputies that were flown
-    misses_m: Floats  #: (A,): the largest, in position, of the polynomials; NaN: not flown
-    misses_s: Floats  #: (A,): in time
-    linear_misses_m: Floats  #: (A,): of the linear polynomials
-    linear_misses_s: Floats  #: (A,)
-    rounding_m: float  #: of a flown position
-    verdict: str  #: what ``hamjet poincare`` says first
-    table: Table = field(repr=False)  #: the columns of ``event.csv``, by name
-    _study: _hamjet.EventStudy | None = field(repr=False)
+
+    def __init__(self, study: _hamjet.EventStudy) -> None:
+        super().__init__(study)
+        vars(self).update(study.polynomials())
 
     def evaluate(self, deviations: npt.ArrayLike) -> Floats:
         """Time and state of neighbours, canonical.
@@ -102,41 +71,34 @@ class Event(Study):
 
     def __repr__(self) -> str:
         return shown.of(self, f": after {self.time_s:.9g} s, {len(self.exponents)} monomials; "
-                        f"misses up to {shown.largest(self.misses_m)} m for deviations up to "
-                        f"{shown.largest(self.amplitudes_m)} m")
+                        f"misses up to {shown.largest(self.position_miss_m)} m for deviations up "
+                        f"to {shown.largest(self.amplitude_m)} m")
 
 
-@dataclass(frozen=True, eq=False)
-class Bounded(Study):
-    """Deputies that stay with a chief, K of several sizes and rules; immutable.
+class Bounded(Study, table="bounded"):
+    """Deputies that stay with a chief, of several sizes and rules; immutable.
 
-    Drifts are mean ones a revolution, in parts of the size, over a tenth of the revolutions and
-    over all. NaN stands where there is no such deputy.
+    NaN or None stands where there is no such deputy. The further table ``box`` has the returns of
+    a deputy that is kept in [bounded.box]; it is None without one.
     """
 
-    rules: tuple[str, ...]  #: poincare-map, refined, j2-invariant or mean-elements
-    wanted_m: Floats  #: (K,): the scene's sizes
-    size_m: Floats  #: (K,): the largest distance over the first revolution
-    half_widths_m: Floats  #: (K, 3): along R, T, N
-    along_drifts: Floats  #: (K, 2)
-    along_doubts: Floats  #: (K, 2): by how much these change where the window ends a look earlier
-    cross_drifts: Floats  #: (K, 2)
-    starts: Floats  #: (K, 6): position in m and velocity in m/s along R, T, N, rotating derivatives
-    revolutions: int  #: over which all were flown
-    failures: tuple[str, ...]  #: why there is no deputy; empty where there is one
-    box_return_times_s: Floats  #: (J,): of the first impulses of the returns into [bounded.box]
-    box_return_durations_s: Floats  #: (J,): to the second ones
-    box_changes_m_s: Floats  #: (J,): of both impulses
-    box_change_m_s_a_day: float  #: NaN without a box
-    box_farthest: float  #: from the box's middle, in half widths, as flown; NaN without a box
-    verdict: str  #: what ``hamjet bounded`` says first
-    table: Table = field(repr=False)  #: the columns of ``bounded.csv``, by name
-    _study: _hamjet.BoundedStudy | None = field(repr=False)
+    box: Columns | None = None
+
+    def starts(self, form: str = "RTN-rotating") -> Floats:
+        """Initial conditions of the K deputies in a form, (K, 6): its columns in their order.
+
+        Raises UsageError for a form that no column begins with.
+        """
+        columns = [column for name, column in self.table.items() if name.startswith(f"{form}.")]
+        if not columns:
+            forms = dict.fromkeys(name.split(".")[0] for name in self.table if "." in name)
+            raise UsageError(f"starts: no form {form!r}, must be one of {', '.join(forms)}")
+        return np.column_stack(columns)
 
     def __repr__(self) -> str:
-        return shown.of(self, f": {len(self.rules)} deputies over {self.revolutions} revolutions, "
-                        f"{shown.listed(dict.fromkeys(self.rules))}\n along-track drift up to "
-                        f"{shown.largest(self.along_drifts[:, 1])} of the size a revolution")
+        return shown.of(self, f": {len(self.rule)} deputies over {self.revolutions} revolutions, "
+                        f"{shown.listed(dict.fromkeys(self.rule))}\n along-track drift up to "
+                        f"{shown.largest(self.window_along_drift)} of the size a revolution")
 
 
 def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -147,7 +109,7 @@ def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     chief near the equatorial plane), TooLargeError, InputOutputError.
     """
     study = _hamjet.study_poincare(scenes.read(scene, overrides), arguments.progress(progress))
-    return FrozenOrbit(**study.arrays(), table=read_table(study.csv), _study=study)
+    return FrozenOrbit(study)
 
 
 def event(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -159,7 +121,7 @@ def event(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     the surface), TooLargeError, InputOutputError.
     """
     study = _hamjet.study_event(scenes.read(scene, overrides), arguments.progress(progress))
-    return Event(**study.arrays(), table=read_table(study.csv), _study=study)
+    return Event(study)
 
 
 def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -169,4 +131,4 @@ def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     The scene has a table [bounded]; arguments as of ``run``. Raises as ``poincare``.
     """
     study = _hamjet.study_bounded(scenes.read(scene, overrides), arguments.progress(progress))
-    return Bounded(**study.arrays(), table=read_table(study.csv), _study=study)
+    return Bounded(study)

@@ -48,13 +48,16 @@ py::object tuples_of(std::span<const CellValue> values, std::span<const py::ssiz
 
 py::object array_of_values(const io::TableColumn& column, const std::vector<CellValue>& values,
                            const std::vector<py::ssize_t>& shape) {
-  if (column.kind == CellKind::text) return tuples_of(values, shape);
+  // A flag that may be missing is True, False or None.
+  if (column.kind == CellKind::text || (column.kind == CellKind::flag && column.may_lack)) {
+    return tuples_of(values, shape);
+  }
   if (column.kind == CellKind::count && !column.may_lack) {
     std::vector<std::int64_t> counts;
     for (const CellValue& value : values) counts.push_back(std::get<std::int64_t>(value));
     return python::array_of(std::move(counts), shape);
   }
-  if (column.kind == CellKind::flag && !column.may_lack) {
+  if (column.kind == CellKind::flag) {
     std::vector<bool> truths;
     for (const CellValue& value : values) truths.push_back(std::get<bool>(value));
     return flags(truths, shape);

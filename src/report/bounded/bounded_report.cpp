@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
-#include "../../store/json_values.hpp"
+#include "../../store/result_table.hpp"
 #include "../../studies/bounded/relative_orbit_extent.hpp"
 #include "../../studies/bounded/scene_gauss.hpp"
 #include "../../studies/checks/flight_checks.hpp"
@@ -204,6 +204,28 @@ std::string sizes_text(const BoundedFormation& formation) {
           : "");
 }
 
+std::string_view unit_of_component(std::string_view name) {
+  if (name.ends_with("_m_s")) return "m/s";
+  if (name.ends_with("_deg")) return "deg";
+  return name.ends_with("_m") ? "m" : "";
+}
+
+/// Adds what is left of a deputy's drift over one of its two spans.
+void add_drifts(ResultTable<BoundedDeputy>& table, std::size_t span, const std::string& prefix,
+                const std::string& told) {
+  const auto add = [&](const char* name, const std::string& meaning, auto member) {
+    table.add_if([](const BoundedDeputy& deputy) { return deputy.failure.empty(); },
+                 prefix + "_" + name, "", meaning,
+                 [=](const BoundedDeputy& deputy) { return deputy.drifts[span].*member; });
+  };
+  add("revolutions", "those of " + told, &BoundedDrift::revolutions);
+  add("along_drift", "along the track over " + told, &BoundedDrift::along);
+  add("along_doubt", "by how much that changes where " + told + " ends a look earlier",
+      &BoundedDrift::along_doubt);
+  add("cross_drift", "across the track over " + told, &BoundedDrift::cross);
+  add("along_range", "the range of the along-track difference over " + told, &BoundedDrift::range);
+}
+
 }  // namespace
 
 std::string bounded_verdict(const BoundedFormation& formation) {
@@ -242,116 +264,96 @@ std::string bounded_verdict(const BoundedFormation& formation) {
   return formation.box ? text + " " + box_verdict(formation) : text;
 }
 
-std::string bounded_csv(const BoundedFormation& formation) {
-  Columns<BoundedDeputy> columns;
+TableView bounded_table(const BoundedFormation& formation) {
+  ResultTable<BoundedDeputy> table(
+      "bounded", "", {"deputies"},
+      "Deputies that stay with the chief, of each size by each rule. Drifts are mean ones a "
+      "revolution, in parts of the size.");
+  const BoundedSettings& settings = *formation.scene.bounded;
+  const double unit = formation.scene.units.time_s;
+  table.add_scalar("verdict", "", "the outcome in words", bounded_verdict(formation));
+  table.add_scalar("phase_deg", "deg", "the direction in which eccentricity vectors differ",
+                   settings.phase_deg);
+  table.add_scalar("cross_track", "", "the reach across the track, of the size",
+                   settings.cross_track);
+  table.add_scalar("along_track", "", "the mean place ahead of the chief, of the size",
+                   settings.along_track);
+  table.add_scalar("revolutions", "", "of the window over which all are flown",
+                   formation.revolutions);
+  table.add_scalar("nodal_period_s", "s", "from node to node at the chief's start",
+                   formation.nodal_period * unit);
+  table.add_scalar("mean_nodal_period_s", "s", "the chief's over the window",
+                   formation.mean_period * unit);
+  table.add_scalar("node_deg_per_revolution", "deg a revolution",
+                   "the mean drift of the chief's node over the window",
+                   formation.mean_node * 180 / std::numbers::pi);
   const auto is_there = [](const BoundedDeputy& deputy) { return deputy.failure.empty(); };
   const auto has_map = [](const BoundedDeputy& deputy) {
     return deputy.failure.empty() && is_of_map(deputy.rule);
   };
-  columns.add("wanted_m", &BoundedDeputy::wanted_m);
-  columns.add("rule", [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
-  columns.add_if(is_there, "size_m", &BoundedDeputy::size_m);
-  columns.add_if(is_there, "least_size_m", &BoundedDeputy::least_size_m);
-  columns.add_if(is_there, "largest_size_m", &BoundedDeputy::largest_size_m);
-  columns.add_if(is_there, "last_size_m", &BoundedDeputy::last_size_m);
-  columns.add_if(is_there, "held", &BoundedDeputy::is_held);
-  columns.add_if(is_there, "eccentricity_difference", &BoundedDeputy::amplitude);
-  constexpr std::array<std::string_view, 3> axes = {"r", "t", "n"};
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    columns.add_if(is_there, fmt::format("half_width_{}_m", axes[i]),
-                   [=](const BoundedDeputy& deputy) {
-                     return half_widths_m(deputy.first)[static_cast<Eigen::Index>(i)];
-                   });
-  }
-  for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
-    const std::string when = k == 0 ? "tenth" : "window";
-    const auto drift = [=](const BoundedDeputy& deputy) { return deputy.drifts[k]; };
-    columns.add_if(is_there, when + "_revolutions",
-                   [=](const BoundedDeputy& deputy) { return drift(deputy).revolutions; });
-    columns.add_if(is_there, when + "_along_drift",
-                   [=](const BoundedDeputy& deputy) { return drift(deputy).along; });
-    columns.add_if(is_there, when + "_along_doubt",
-                   [=](const BoundedDeputy& deputy) { return drift(deputy).along_doubt; });
-    columns.add_if(is_there, when + "_cross_drift",
-                   [=](const BoundedDeputy& deputy) { return drift(deputy).cross; });
-    columns.add_if(is_there, when + "_along_range",
-                   [=](const BoundedDeputy& deputy) { return drift(deputy).range; });
-  }
-  columns.add_if(has_map, "period_difference", &BoundedDeputy::energy);
+  table.add("wanted_m", "m", "the size that was asked for", &BoundedDeputy::wanted_m);
+  table.add("rule", "", "by which it was chosen",
+            [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
+  table.add_if(is_there, "size_m", "m",
+               "the largest distance from the chief over the first revolution",
+               &BoundedDeputy::size_m);
+  table.add_if(is_there, "least_size_m", "m",
+               "the least such of a revolution from each look of the window on",
+               &BoundedDeputy::least_size_m);
+  table.add_if(is_there, "largest_size_m", "m", "the largest such", &BoundedDeputy::largest_size_m);
+  table.add_if(is_there, "last_size_m", "m", "that from the window's end on",
+               &BoundedDeputy::last_size_m);
+  table.add_if(is_there, "held", "",
+               "whether these sizes stay within a quarter of the one that was asked for",
+               &BoundedDeputy::is_held);
+  table.add_if(is_there, "eccentricity_difference", "",
+               "the amplitude of the difference of the eccentricity vectors",
+               &BoundedDeputy::amplitude);
+  table.add_array("half_widths_m", {"half_width_r_m", "half_width_t_m", "half_width_n_m"}, "m",
+                  "half of how far it reaches along R, T and N over the first revolution",
+                  [=](const BoundedDeputy& deputy) -> std::optional<Eigen::Vector3d> {
+                    if (!is_there(deputy)) return std::nullopt;
+                    return half_widths_m(deputy.first);
+                  });
+  add_drifts(table, 0, "tenth", "a tenth of the window");
+  add_drifts(table, 1, "window", "the window");
+  table.add_if(has_map, "period_difference", "",
+               "the period of Kepler's ellipse over the chief's, less 1",
+               &BoundedDeputy::period_difference);
   const CanonicalFactors told = told_factors(formation.scene);
-  columns.add_if(has_map, "momentum_difference_canonical",
-                 [=](const BoundedDeputy& deputy) { return told.told_action(deputy.momentum); });
-  columns.add_if(has_map, "refinements", &BoundedDeputy::refinements);
-  columns.add_if(is_there, "lowest_m", &BoundedDeputy::lowest_m);
+  table.add_if(
+      has_map, "momentum_difference_canonical", "",
+      "the angular momentum about the axis less the chief's, canonical",
+      [=](const BoundedDeputy& deputy) { return told.told_action(deputy.momentum_difference); });
+  table.add_if(has_map, "refinements", "", "iterations of Newton's method by flying",
+               &BoundedDeputy::refinements);
+  table.add_if(is_there, "lowest_m", "m",
+               "the least distance from the centre over the revolutions that were looked at",
+               &BoundedDeputy::lowest_m);
   for (std::size_t f = 0; f < BoundedDeputy{}.forms.size(); ++f) {
     const auto form = static_cast<DeputyForm>(f);
     for (std::size_t i = 0; i < 6; ++i) {
-      columns.add_if(is_there, fmt::format("{}.{}", form_key(form), components_of(form)[i].name),
-                     [=](const BoundedDeputy& deputy) { return deputy.forms[f][i]; });
+      const DeputyComponent& component = components_of(form)[i];
+      table.add_if(is_there, fmt::format("{}.{}", form_key(form), component.name),
+                   std::string(unit_of_component(component.name)),
+                   fmt::format("of the start, as a scene's deputy has it: {}", component.help),
+                   [=](const BoundedDeputy& deputy) { return deputy.forms[f][i]; });
     }
   }
-  columns.add("failure", &BoundedDeputy::failure);
-  return columns.csv(formation.deputies);
+  table.add("failure", "", "why there is no such deputy", &BoundedDeputy::failure);
+  return std::move(table).view(formation.deputies, {formation.deputies.size()});
+}
+
+std::vector<TableView> bounded_tables(const BoundedFormation& formation) {
+  std::vector<TableView> tables = {bounded_table(formation)};
+  if (formation.box) tables.push_back(box_table(formation));
+  return tables;
 }
 
 Json bounded_json(const BoundedFormation& formation) {
   Json json = study_head_json(formation.scene, "bounded", scene_gauss_label(formation.scene));
-  const BoundedSettings& settings = *formation.scene.bounded;
-  json["verdict"] = bounded_verdict(formation);
-  json["phase_deg"] = settings.phase_deg;
-  json["cross_track"] = settings.cross_track;
-  json["along_track"] = settings.along_track;
-  json["revolutions"] = formation.revolutions;
-  const double unit = formation.scene.units.time_s;
-  json["nodal_period_s"] = formation.nodal_period * unit;
-  json["mean_nodal_period_s"] = formation.mean_period * unit;
-  json["node_deg_per_revolution"] = formation.mean_node * 180 / std::numbers::pi;
-  json["deputies"] = Json::array();
-  for (const BoundedDeputy& deputy : formation.deputies) {
-    Json entry = {{"wanted_m", deputy.wanted_m},
-                  {"rule", name_of(deputy.rule)},
-                  {"failure", text_or_null(deputy.failure)},
-                  {"size_m", nullptr},
-                  {"least_size_m", nullptr},
-                  {"largest_size_m", nullptr},
-                  {"last_size_m", nullptr},
-                  {"held", nullptr},
-                  {"eccentricity_difference", nullptr},
-                  {"half_widths_m", nullptr},
-                  {"lowest_m", nullptr},
-                  {"refinements", nullptr},
-                  {"drifts", nullptr},
-                  {"start", nullptr}};
-    if (deputy.failure.empty()) {
-      entry["size_m"] = json_number(deputy.size_m);
-      entry["least_size_m"] = json_number(deputy.least_size_m);
-      entry["largest_size_m"] = json_number(deputy.largest_size_m);
-      entry["last_size_m"] = json_number(deputy.last_size_m);
-      entry["held"] = deputy.is_held();
-      entry["eccentricity_difference"] = json_number(deputy.amplitude);
-      entry["half_widths_m"] = vector_json(half_widths_m(deputy.first));
-      entry["lowest_m"] = json_number(deputy.lowest_m);
-      if (is_of_map(deputy.rule)) entry["refinements"] = deputy.refinements;
-      entry["drifts"] = Json::array();
-      for (const BoundedDrift& drift : deputy.drifts) {
-        entry["drifts"].push_back({{"revolutions", drift.revolutions},
-                                   {"along", json_number(drift.along)},
-                                   {"along_doubt", json_number(drift.along_doubt)},
-                                   {"cross", json_number(drift.cross)},
-                                   {"along_range", json_number(drift.range)}});
-      }
-      entry["start"] = Json::object();
-      for (std::size_t f = 0; f < deputy.forms.size(); ++f) {
-        const auto form = static_cast<DeputyForm>(f);
-        Json& numbers = entry["start"][form_key(form)];
-        for (std::size_t i = 0; i < 6; ++i) {
-          numbers[std::string(components_of(form)[i].name)] = json_number(deputy.forms[f][i]);
-        }
-      }
-    }
-    json["deputies"].push_back(std::move(entry));
-  }
-  json["box"] = formation.box ? box_json(formation) : Json(nullptr);
+  json.update(table_json(bounded_table(formation)));
+  json["box"] = formation.box ? table_json(box_table(formation)) : Json(nullptr);
   json["seconds"] = {{"all", formation.seconds}, {"flights", formation.flight_seconds}};
   json["exit_code"] = exit_code_of(formation);
   return json;
@@ -360,9 +362,9 @@ Json bounded_json(const BoundedFormation& formation) {
 StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"bounded.csv", bounded_csv(formation)},
+  report.files = {{"bounded.csv", table_csv(bounded_table(formation))},
                   {"report.html", page(formation, origin, drawer)}};
-  if (formation.box) report.files.push_back({"box.csv", box_csv(formation)});
+  if (formation.box) report.files.push_back({"box.csv", table_csv(box_table(formation))});
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", json_text(bounded_json(formation)) + "\n"});
   report.exit_code = exit_code_of(formation);

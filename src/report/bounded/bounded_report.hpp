@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "../../store/table_view.hpp"
 #include "../../studies/bounded/bounded_formation.hpp"
 #include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/detail/report/study_report.hpp"
@@ -13,8 +15,10 @@ namespace hamjet::io {
 /// of first order.
 std::string bounded_verdict(const BoundedFormation& formation);
 
-/// `bounded.csv`: one row a deputy.
-std::string bounded_csv(const BoundedFormation& formation);
+/// A row a deputy.
+TableView bounded_table(const BoundedFormation& formation);
+/// That, and the table of the box where the scene has one.
+std::vector<TableView> bounded_tables(const BoundedFormation& formation);
 
 /// `summary.json`.
 nlohmann::ordered_json bounded_json(const BoundedFormation& formation);

@@ -4,15 +4,11 @@
 
 #include <array>
 
-#include "../../store/columns.hpp"
-#include "../../store/json_values.hpp"
+#include "../../store/result_table.hpp"
 #include "../../text/quantity_text.hpp"
-#include "../formation/transfer_json.hpp"
 
 namespace hamjet::io {
 namespace {
-
-constexpr std::array<std::string_view, 3> box_axes = {"r", "t", "n"};
 
 std::string_view reference_text(const BoundedFormation& formation) {
   return formation.scene.bounded->box.reference == BoxReference::member
@@ -48,42 +44,43 @@ std::string box_failure(const BoxControl& box) {
       box.farthest);
 }
 
-std::string box_csv(const BoundedFormation& formation) {
-  const double unit = formation.scene.units.time_s;
-  Columns<BoxReturn> columns;
-  columns.add("time_s", [=](const BoxReturn& one) { return one.time * unit; });
-  columns.add("duration_s", [=](const BoxReturn& one) { return one.duration * unit; });
-  columns.add("change_m_s", &BoxReturn::change_m_s);
-  for (std::size_t i = 0; i < box_axes.size(); ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    columns.add(fmt::format("first_{}_m_s", box_axes[i]),
-                [=](const BoxReturn& one) { return one.first_m_s[axis]; });
-  }
-  for (std::size_t i = 0; i < box_axes.size(); ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    columns.add(fmt::format("second_{}_m_s", box_axes[i]),
-                [=](const BoxReturn& one) { return one.second_m_s[axis]; });
-  }
-  columns.add("miss_m", &BoxReturn::miss_m);
-  columns.add("farthest", &BoxReturn::farthest);
-  return columns.csv(formation.box->returns);
-}
-
-nlohmann::ordered_json box_json(const BoundedFormation& formation) {
+TableView box_table(const BoundedFormation& formation) {
   const BoxControl& box = *formation.box;
   const BoxSettings& settings = formation.scene.bounded->box;
-  return {{"half_widths_m", vector_json(*settings.half_widths_m)},
-          {"reference", settings.reference == BoxReference::member ? "member" : "rest"},
-          {"days", box.days},
-          {"returns", box.returns.size()},
-          {"change_m_s", box.change_m_s()},
-          {"change_m_s_a_day", box.change_a_day_m_s()},
-          {"farthest", json_number(box.farthest)},
-          {"held", box.is_held()},
-          {"places_a_revolution", BoxControl::places_a_revolution},
-          {"least_m", vector_json(box.least_m)},
-          {"most_m", vector_json(box.most_m)},
-          {"start_canonical", told_state(formation.scene, box.start)}};
+  ResultTable<BoxReturn> table(
+      "box", "/box", {"returns"},
+      "The returns of a deputy that is kept in a box, of two impulses each.");
+  table.leave_rows_out_of_json();
+  table.add_scalars("half_widths_m", "m", "of the box along R, T and N", *settings.half_widths_m);
+  table.add_scalar("reference", "", "the middle: a place at rest, or the deputy of the first size",
+                   settings.reference == BoxReference::member ? "member" : "rest");
+  table.add_scalar("days", "", "over which it is kept", box.days);
+  table.add_scalar("returns", "", "how many there are", box.returns.size());
+  table.add_scalar("total_change_m_s", "m/s", "the sum of all impulses", box.change_m_s());
+  table.add_scalar("change_m_s_a_day", "m/s a day", "that, over the days", box.change_a_day_m_s());
+  table.add_scalar("farthest_of_all", "",
+                   "the farthest that the flown deputy is from the middle, in half widths",
+                   box.farthest);
+  table.add_scalar("held", "", "whether it is never outside", box.is_held());
+  table.add_scalar("places_a_revolution", "", "at which it is looked for",
+                   BoxControl::places_a_revolution);
+  table.add_scalars("least_m", "m", "the least of its places along R, T and N", box.least_m);
+  table.add_scalars("most_m", "m", "the greatest of its places along R, T and N", box.most_m);
+  table.add_scalars("start_canonical", "", "its state at the start, canonical",
+                    told_state(formation.scene, box.start));
+  const double unit = formation.scene.units.time_s;
+  table.add("time_s", "s", "of the first impulse, since the start",
+            [=](const BoxReturn& one) { return one.time * unit; });
+  table.add("duration_s", "s", "from there to the second impulse",
+            [=](const BoxReturn& one) { return one.duration * unit; });
+  table.add("change_m_s", "m/s", "the sum of both", &BoxReturn::change_m_s);
+  table.add_array("first_m_s", {"first_r_m_s", "first_t_m_s", "first_n_m_s"}, "m/s",
+                  "the first impulse along the chief's R, T and N", &BoxReturn::first_m_s);
+  table.add_array("second_m_s", {"second_r_m_s", "second_t_m_s", "second_n_m_s"}, "m/s",
+                  "the second impulse along the chief's R, T and N", &BoxReturn::second_m_s);
+  table.add("miss_m", "m", "how far the flight ends from the middle", &BoxReturn::miss_m);
+  table.add("farthest", "", "from the middle on the way, in half widths", &BoxReturn::farthest);
+  return std::move(table).view(box.returns, {box.returns.size()});
 }
 
 Chart box_chart(const BoundedFormation& formation) {

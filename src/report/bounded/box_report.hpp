@@ -1,9 +1,8 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
+#include "../../store/table_view.hpp"
 #include "../../studies/bounded/bounded_formation.hpp"
 #include "../drawing/chart.hpp"
 
@@ -17,11 +16,8 @@ std::string box_verdict(const BoundedFormation& formation);
 /// Why the deputy was not kept in the box, where it was not.
 std::string box_failure(const BoxControl& box);
 
-/// `box.csv`: one row a return, with the states at both impulses.
-std::string box_csv(const BoundedFormation& formation);
-
-/// The entry `box` of `summary.json`.
-nlohmann::ordered_json box_json(const BoundedFormation& formation);
+/// A row a return.
+TableView box_table(const BoundedFormation& formation);
 
 /// The distances from the reference along R, T and N over the time, in parts of the box; not
 /// fitted.

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "../../formats/stored_coefficients.hpp"
-#include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
-#include "../../store/json_values.hpp"
+#include "../../store/result_table.hpp"
 #include "../../studies/bounded/scene_gauss.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -135,14 +134,33 @@ std::string event_verdict(const EventStudy& study) {
             : "no deputy that was flown is within 1 m of them");
 }
 
-std::string event_csv(const EventStudy& study) {
-  Columns<EventMisses> columns;
-  columns.add("amplitude_m", &EventMisses::amplitude_m);
-  columns.add("position_m", &EventMisses::position_m);
-  columns.add("time_s", &EventMisses::time_s);
-  columns.add("linear_position_m", &EventMisses::linear_position_m);
-  columns.add("linear_time_s", &EventMisses::linear_time_s);
-  return columns.csv(study.misses);
+std::vector<TableView> event_tables(const EventStudy& study) {
+  ResultTable<EventMisses> table(
+      "event", "", {"misses"},
+      "When and where the chief meets a condition, and how far flown deputies are from the "
+      "polynomials of time and state: the largest of several with deviations of one size.");
+  table.add_scalar("verdict", "", "the outcome in words", event_verdict(study));
+  table.add_scalar("condition", "", "in words", condition_text(*study.scene.event));
+  table.add_scalar("number", "", "which of the chief's events it is, from 1",
+                   study.scene.event->number);
+  table.add_scalar("time_s", "s", "of the chief's event, since the start", study.time_s());
+  table.add_scalar("time_canonical", "", "the same, in the scene's canonical unit of time",
+                   told_time(study.scene, study.map.time[0]));
+  table.add_scalars("state_canonical", "", "the chief's at the event, canonical",
+                    told_state(study.scene, study.state()));
+  table.add_scalar("position_rounding_m", "m", "of a flown position: misses below say nothing",
+                   study.position_rounding_m);
+  table.add_scalar("flown_deputies", "", "of each deviation", study.flown);
+  table.add("amplitude_m", "m", "the deviation of the initial position", &EventMisses::amplitude_m);
+  table.add("position_miss_m", "m", "of the polynomials; nothing where a deputy could not be flown",
+            &EventMisses::position_m);
+  table.add("time_miss_s", "s", "of the polynomials' time, from the event itself",
+            &EventMisses::time_s);
+  table.add("linear_position_miss_m", "m", "of the linear polynomials",
+            &EventMisses::linear_position_m);
+  table.add("linear_time_miss_s", "s", "of the linear polynomials' time",
+            &EventMisses::linear_time_s);
+  return {std::move(table).view(study.misses, {study.misses.size()})};
 }
 
 std::string event_map_csv(const EventStudy& study) {
@@ -159,22 +177,7 @@ std::string event_map_csv(const EventStudy& study) {
 
 Json event_json(const EventStudy& study) {
   Json json = study_head_json(study.scene, "event", scene_gauss_label(study.scene));
-  json["verdict"] = event_verdict(study);
-  json["condition"] = condition_text(*study.scene.event);
-  json["number"] = study.scene.event->number;
-  json["time_s"] = study.time_s();
-  json["time_canonical"] = told_time(study.scene, study.map.time[0]);
-  json["state_canonical"] = told_state(study.scene, study.state());
-  json["position_rounding_m"] = study.position_rounding_m;
-  json["flown_deputies"] = study.flown;
-  json["misses"] = Json::array();
-  for (const EventMisses& one : study.misses) {
-    json["misses"].push_back({{"amplitude_m", one.amplitude_m},
-                              {"position_m", json_number(one.position_m)},
-                              {"time_s", json_number(one.time_s)},
-                              {"linear_position_m", json_number(one.linear_position_m)},
-                              {"linear_time_s", json_number(one.linear_time_s)}});
-  }
+  json.update(table_json(event_tables(study).front()));
   json["exit_code"] = 0;
   return json;
 }
@@ -182,7 +185,7 @@ Json event_json(const EventStudy& study) {
 StudyReport event_report(const EventStudy& study, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"event.csv", event_csv(study)},
+  report.files = {{"event.csv", table_csv(event_tables(study).front())},
                   {"event-map.csv", event_map_csv(study)},
                   {"report.html", event_page(study, origin, drawer)},
                   {"summary.json", json_text(event_json(study)) + "\n"}};

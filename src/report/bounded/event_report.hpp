@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "../../store/table_view.hpp"
 #include "../../studies/bounded/event_study.hpp"
 #include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/detail/report/study_report.hpp"
@@ -12,8 +14,8 @@ namespace hamjet::io {
 /// The first that a reader sees: when and where the event is, and how far its polynomials hold.
 std::string event_verdict(const EventStudy& study);
 
-/// `event.csv`: one row an amplitude, how far flown deputies are from their polynomials.
-std::string event_csv(const EventStudy& study);
+/// A row an amplitude, how far flown deputies are from their polynomials.
+std::vector<TableView> event_tables(const EventStudy& study);
 
 /// `event-map.csv`: the polynomials in the form of `jet.csv`, with the component `time`.
 std::string event_map_csv(const EventStudy& study);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <variant>
 
-#include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
-#include "../../store/json_values.hpp"
+#include "../../store/result_table.hpp"
 #include "../../studies/bounded/scene_gauss.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -114,63 +115,89 @@ std::string frozen_orbit_verdict(const FrozenOrbitStudy& study) {
   return text;
 }
 
-std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
-  Columns<LibrationCircle> columns;
-  const double unit = study.scene.units.time_s;
-  columns.add("amplitude_m",
-              [&](const LibrationCircle& circle) { return study.length_m(circle.amplitude); });
-  columns.add("amplitude_eccentricity", &LibrationCircle::amplitude);
-  columns.add("chief", &LibrationCircle::is_chiefs);
-  columns.add("rotation_number", &LibrationCircle::rotation_number);
-  columns.add("mean_nodal_period_s",
-              [=](const LibrationCircle& circle) { return circle.mean_period * unit; });
-  columns.add("node_deg_per_revolution",
-              [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
+namespace {
+
+/// What is told of the frozen orbit itself.
+TableView frozen_orbit_table(const FrozenOrbitStudy& study) {
+  ResultTable<std::monostate> table(
+      "frozen_orbit", "/frozen_orbit", {},
+      "The frozen orbit, osculating on the chief's mean argument of latitude.");
+  const CanonicalUnits& units = study.scene.units;
+  table.add_scalars("state_canonical", "", "its state there, with the chief's node, canonical",
+                    told_state(study.scene, study.state));
+  table.add_scalar("a_km", "km", "its semi-major axis", study.semi_major_axis * units.length_km);
+  table.add_scalar("e", "", "its eccentricity", study.eccentricity);
+  table.add_scalar("i_deg", "deg", "its inclination", study.inclination_deg);
+  table.add_scalar("argp_deg", "deg", "the argument of its pericentre", study.pericentre_deg);
+  table.add_scalar("inside_body", "", "whether its pericentre lies inside the body",
+                   study.is_inside_body());
+  table.add_scalar("nodal_period_s", "s", "from section to section",
+                   study.nodal_period * units.time_s);
+  table.add_scalar("node_deg_per_revolution", "deg a revolution", "the drift of its node",
+                   study.node * degrees);
+  table.add_scalar("residual", "", "by how much a revolution moves it, in extended precision",
+                   study.residual);
+  table.add_scalar("iterations", "", "of Newton's method", study.iterations);
+  table.add_scalar("trace", "", "the sum of its two multipliers", study.trace);
+  table.add_scalar("trace_less_2", "", "that sum less 2; stable between -4 and 0",
+                   study.trace_less_2);
+  table.add_scalars("multiplier", "", "one of the two, its real and imaginary parts",
+                    study.multiplier());
+  table.add_scalar("area_defect", "", "the product of the two, less 1", study.area_defect);
+  table.add_scalar("stable", "", "whether both are on the unit circle", study.is_stable());
+  return std::move(table).view(std::vector<std::monostate>(1), {});
+}
+
+/// What librates about it, by the normal form.
+TableView circles_table(const FrozenOrbitStudy& study) {
+  ResultTable<LibrationCircle> table(
+      "poincare", "", {"circles"},
+      "Circles of the normal form about the frozen orbit, of the chief's energy and momentum.");
+  const auto of_form = [&](auto value) {
+    return study.failure.empty() ? std::optional(value) : std::nullopt;
+  };
+  table.add_scalar("verdict", "", "the outcome in words", frozen_orbit_verdict(study));
+  table.add_scalar("failure", "", "why there is no normal form", study.failure);
+  table.add_scalar("smallest_divisor", "", "of the normal form", of_form(study.smallest_divisor));
+  table.add_scalar("flown_revolutions", "", "after which flown orbits are compared with it",
+                   of_form(study.flown_revolutions));
+  table.add_scalar("reach_m", "m", "the amplitude up to which they miss by no more than that",
+                   of_form(study.length_m(study.reach)));
+  table.add_scalar("largest_miss", "", "which still counts as right, in parts of the amplitude",
+                   FrozenOrbitStudy::largest_miss);
+  table.add("amplitude_m", "m", "of the eccentricity vector, times the semi-major axis",
+            [&](const LibrationCircle& circle) { return study.length_m(circle.amplitude); });
+  table.add("amplitude_eccentricity", "", "of the eccentricity vector",
+            &LibrationCircle::amplitude);
+  table.add("chief", "", "whether the scene's chief is on it", &LibrationCircle::is_chiefs);
+  table.add("rotation_number", "", "turns of the eccentricity vector a revolution",
+            &LibrationCircle::rotation_number);
+  table.add(
+      "mean_nodal_period_s", "s", "from node to node, in the mean",
+      [&](const LibrationCircle& circle) { return circle.mean_period * study.scene.units.time_s; });
+  table.add("node_deg_per_revolution", "deg a revolution", "the mean drift of the node",
+            [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
   const CanonicalFactors told = told_factors(study.scene);
-  columns.add("action_canonical",
-              [=](const LibrationCircle& circle) { return told.told_action(circle.action); });
-  columns.add("miss", &LibrationCircle::miss);
-  return columns.csv(study.circles);
+  table.add("action_canonical", "", "the circle's action, canonical",
+            [=](const LibrationCircle& circle) { return told.told_action(circle.action); });
+  table.add("miss", "",
+            "of a flown orbit from the normal form, in parts of the amplitude; nothing where it "
+            "could not be flown",
+            &LibrationCircle::miss);
+  return std::move(table).view(study.circles, {study.circles.size()});
+}
+
+}  // namespace
+
+std::vector<TableView> poincare_tables(const FrozenOrbitStudy& study) {
+  return {circles_table(study), frozen_orbit_table(study)};
 }
 
 Json frozen_orbit_json(const FrozenOrbitStudy& study) {
-  const auto [real, imaginary] = study.multiplier();
-  const CanonicalFactors told = told_factors(study.scene);
   Json json = study_head_json(study.scene, "poincare", scene_gauss_label(study.scene));
   json["verdict"] = frozen_orbit_verdict(study);
-  json["frozen_orbit"] = {{"state_canonical", told_state(study.scene, study.state)},
-                          {"a_km", study.semi_major_axis * study.scene.units.length_km},
-                          {"e", study.eccentricity},
-                          {"i_deg", study.inclination_deg},
-                          {"argp_deg", study.pericentre_deg},
-                          {"inside_body", study.is_inside_body()},
-                          {"nodal_period_s", study.nodal_period * study.scene.units.time_s},
-                          {"node_deg_per_revolution", study.node * degrees},
-                          {"residual", study.residual},
-                          {"iterations", study.iterations},
-                          {"trace", study.trace},
-                          {"trace_less_2", study.trace_less_2},
-                          {"multiplier", {real, imaginary}},
-                          {"area_defect", study.area_defect},
-                          {"stable", study.is_stable()}};
-  const bool has_form = study.failure.empty();
-  json["failure"] = text_or_null(study.failure);
-  json["smallest_divisor"] = has_form ? Json(study.smallest_divisor) : Json(nullptr);
-  json["flown_revolutions"] = has_form ? Json(study.flown_revolutions) : Json(nullptr);
-  json["reach_m"] = has_form ? Json(study.length_m(study.reach)) : Json(nullptr);
-  json["largest_miss"] = FrozenOrbitStudy::largest_miss;
-  json["circles"] = Json::array();
-  for (const LibrationCircle& circle : study.circles) {
-    json["circles"].push_back(
-        {{"amplitude_m", study.length_m(circle.amplitude)},
-         {"amplitude_eccentricity", circle.amplitude},
-         {"chief", circle.is_chiefs},
-         {"rotation_number", circle.rotation_number},
-         {"mean_nodal_period_s", circle.mean_period * study.scene.units.time_s},
-         {"node_deg_per_revolution", circle.mean_node * degrees},
-         {"action_canonical", told.told_action(circle.action)},
-         {"miss", json_number(circle.miss)}});
-  }
+  json["frozen_orbit"] = table_json(frozen_orbit_table(study));
+  json.update(table_json(circles_table(study)));
   json["exit_code"] = 0;
   return json;
 }
@@ -178,7 +205,7 @@ Json frozen_orbit_json(const FrozenOrbitStudy& study) {
 StudyReport frozen_orbit_report(const FrozenOrbitStudy& study, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"poincare.csv", frozen_orbit_csv(study)},
+  report.files = {{"poincare.csv", table_csv(circles_table(study))},
                   {"report.html", frozen_orbit_page(study, origin, drawer)},
                   {"summary.json", json_text(frozen_orbit_json(study)) + "\n"}};
   report.drawing_problem = drawer.problem();

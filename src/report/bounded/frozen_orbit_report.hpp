@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "../../store/table_view.hpp"
 #include "../../studies/bounded/frozen_orbit_study.hpp"
 #include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/detail/report/study_report.hpp"
@@ -12,8 +14,8 @@ namespace hamjet::io {
 /// The first that a reader sees: the frozen orbit, and whether it is stable.
 std::string frozen_orbit_verdict(const FrozenOrbitStudy& study);
 
-/// `poincare.csv`: one row a circle of the normal form.
-std::string frozen_orbit_csv(const FrozenOrbitStudy& study);
+/// A row a circle of the normal form, and what is told of the frozen orbit itself.
+std::vector<TableView> poincare_tables(const FrozenOrbitStudy& study);
 
 /// `summary.json`.
 nlohmann::ordered_json frozen_orbit_json(const FrozenOrbitStudy& study);

@@ -129,8 +129,8 @@ class BoundedStudy {
     SixNumbers<double> state;
     if (deputy.rule == BoundedRule::poincare_map) {
       const BoundedFamily::Member member = family_.member(offset.q, offset.p, family_.order());
-      deputy.energy = member.energy;
-      deputy.momentum = member.momentum;
+      deputy.period_difference = member.energy;
+      deputy.momentum_difference = member.momentum;
       state = member.state;
     } else {
       state = mean_element_deputy(field_, start_,
@@ -218,8 +218,8 @@ class BoundedStudy {
     const Offset offset = offset_of(deputy, deputy.amplitude);
     const auto slope = [&](const Series<double>& series, NodalVariable variable,
                            const BoundedDeputy& at) {
-      const std::array<double, nodal_variables> point = {at.energy, offset.q, at.momentum,
-                                                         offset.p};
+      const std::array<double, nodal_variables> point = {at.period_difference, offset.q,
+                                                         at.momentum_difference, offset.p};
       return evaluate<double>(derivative(series, variable), point);
     };
     constexpr int most_iterations = 5;
@@ -231,10 +231,11 @@ class BoundedStudy {
       const double d = slope(family_.mean_node(), momentum_variable, deputy);
       const double determinant = a * d - b * c;
       BoundedDeputy next = deputy;
-      next.energy -= (d * time - b * node) / determinant;
-      next.momentum -= (a * node - c * time) / determinant;
-      next.state = shifted(family_.state_of(offset.q, offset.p, next.energy, next.momentum), next,
-                           offset.node);
+      next.period_difference -= (d * time - b * node) / determinant;
+      next.momentum_difference -= (a * node - c * time) / determinant;
+      next.state = shifted(
+          family_.state_of(offset.q, offset.p, next.period_difference, next.momentum_difference),
+          next, offset.node);
       flight_.fly(next);
       const auto size_of_drift = [](const BoundedDeputy& of) {
         return std::hypot(of.drifts.back().along, of.drifts.back().cross);

@@ -57,8 +57,8 @@ struct BoundedDeputy {
   double last_size_m = 0;
   // Of the map and what is refined of it: the period of Kepler's ellipse over the chief's, less 1,
   // and H less the chief's, canonical.
-  double energy = 0;
-  double momentum = 0;
+  double period_difference = 0;
+  double momentum_difference = 0;
   int refinements = 0;                              ///< iterations of Newton's method by flying
   std::vector<double> state;                        ///< at the chief's start, canonical
   std::array<std::array<double, 6>, 6> forms = {};  ///< of every DeputyForm
