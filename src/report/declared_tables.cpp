@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "formation/validity_table.hpp"
+#include "uncertainty/moments_table.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -22,6 +25,24 @@ TableView declared_validity() {
   return validity_table(result);
 }
 
+std::vector<TableView> declared_uncertainty() {
+  UncertaintyResult result;
+  result.scene = declaring_scene();
+  result.scene.uncertainty.emplace();
+  UncertainState state;
+  state.name = "chief";
+  state.cartesian.assign(2, Cumulants(Vector<double>::Zero(6), {}));
+  result.points.resize(1);
+  result.points[0].states = {state};
+  LeastSeparations& least = result.collision.emplace().separations;
+  for (auto* list :
+       {&least.shares, &least.separations, &least.errors, &least.lower, &least.upper}) {
+    list->resize(4);
+  }
+  result.safety.emplace();
+  return uncertainty_tables(result);
+}
+
 /// The column's names in CSV, where it is there.
 std::string csv_cell(const TableColumn& column) {
   if (!column.is_in_csv) return "-";
@@ -29,18 +50,26 @@ std::string csv_cell(const TableColumn& column) {
   return fmt::format("`{}`", fmt::join(column.parts, "`, `"));
 }
 
+std::string named(const TableDimension& dimension) {
+  return dimension.name.empty() ? "rows" : dimension.name;
+}
+
 /// What a column has a cell for, as in "times, orders".
 std::string cells_text(const TableView& table, const TableColumn& column) {
   std::string text;
   for (std::size_t i = 0; i < column.level; ++i) {
-    text += (i == 0 ? "" : ", ") + table.dimensions[i].name;
+    text += (i == 0 ? "" : ", ") + named(table.dimensions[i]);
   }
   return text.empty() ? "the result" : text;
 }
 
 }  // namespace
 
-std::vector<TableView> declared_tables() { return {declared_validity()}; }
+std::vector<TableView> declared_tables() {
+  std::vector<TableView> tables = {declared_validity()};
+  for (TableView& table : declared_uncertainty()) tables.push_back(std::move(table));
+  return tables;
+}
 
 std::string columns_page() {
   std::string text =
@@ -50,7 +79,8 @@ std::string columns_page() {
       "under *of each*. In CSV a field is\nempty, in JSON null and in Python NaN or None where "
       "there is nothing.\n";
   for (const TableView& table : declared_tables()) {
-    text += fmt::format("\n## `{}.csv`\n\n{}", table.name, table.meaning);
+    const bool is_file = std::ranges::any_of(table.columns, &TableColumn::is_in_csv);
+    text += fmt::format("\n## `{}{}`\n\n{}", table.name, is_file ? ".csv" : "", table.meaning);
     if (!table.place.empty()) text += fmt::format(" In summary.json at `{}`.", table.place);
     text += "\n\n| column | CSV | unit | of each | meaning |\n|---|---|---|---|---|\n";
     for (const TableColumn& column : table.columns) {
