@@ -13,6 +13,7 @@
 #include "formation/deputy_motion_report.hpp"
 #include "formation/transfer_tables.hpp"
 #include "formation/validity_table.hpp"
+#include "uncertainty/moments_table.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -75,6 +76,24 @@ std::vector<TableView> declared_bounded() {
   return bounded_tables(formation);
 }
 
+std::vector<TableView> declared_uncertainty() {
+  UncertaintyResult result;
+  result.scene = declaring_scene();
+  result.scene.uncertainty.emplace();
+  UncertainState state;
+  state.name = "chief";
+  state.cartesian.assign(2, Cumulants(Vector<double>::Zero(6), {}));
+  result.points.resize(1);
+  result.points[0].states = {state};
+  LeastSeparations& least = result.collision.emplace().separations;
+  for (auto* list :
+       {&least.shares, &least.separations, &least.errors, &least.lower, &least.upper}) {
+    list->resize(4);
+  }
+  result.safety.emplace();
+  return uncertainty_tables(result);
+}
+
 /// The column's names in CSV, where it is there.
 std::string csv_cell(const TableColumn& column) {
   if (!column.is_in_csv) return "-";
@@ -98,7 +117,7 @@ std::vector<TableView> declared_tables() {
   for (std::vector<TableView> tables :
        {deputy_motion_tables(declared_motion()), transfer_tables(declared_transfers()),
         assignment_tables(declared_assignment()), validity_tables(declared_validity()),
-        declared_poincare(), declared_event(), declared_bounded()}) {
+        declared_uncertainty(), declared_poincare(), declared_event(), declared_bounded()}) {
     for (TableView& table : tables) all.push_back(std::move(table));
   }
   return all;

@@ -37,13 +37,6 @@ Json nested_json(std::span<const CellValue> values, std::span<const std::size_t>
   return json;
 }
 
-Json cell_json(const TableColumn& column, std::size_t cell) {
-  const std::vector<CellValue>& values = column.cells[cell];
-  const bool is_array_of_none = column.lengths == std::vector<std::size_t>{0};
-  if (values.empty() && !is_array_of_none) return nullptr;
-  return nested_json(values, column.lengths);
-}
-
 /// The members of a level's cell, and behind them the array of the next level.
 void add_level(const TableView& table, std::size_t level, std::size_t cell, Json& json) {
   for (const TableColumn& column : table.columns) {
@@ -59,6 +52,13 @@ void add_level(const TableView& table, std::size_t level, std::size_t cell, Json
 }
 
 }  // namespace
+
+Json cell_json(const TableColumn& column, std::size_t cell) {
+  const std::vector<CellValue>& values = column.cells[cell];
+  // An array that is empty by its lengths holds all that it can.
+  const bool is_there = !values.empty() || std::ranges::count(column.lengths, 0U) > 0;
+  return is_there ? nested_json(values, column.lengths) : Json(nullptr);
+}
 
 std::size_t TableView::count(std::size_t level) const {
   std::size_t cells = 1;

@@ -65,6 +65,8 @@ struct TableView {
 std::string table_csv(const TableView& table);
 /// The columns without dimension as members, and behind them the rows, nested by dimension.
 nlohmann::ordered_json table_json(const TableView& table);
+/// What a cell of a column holds, null where that is nothing.
+nlohmann::ordered_json cell_json(const TableColumn& column, std::size_t cell);
 /// One row's columns as members, but those without dimension.
 nlohmann::ordered_json row_json(const TableView& table, std::size_t row);
 

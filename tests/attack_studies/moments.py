@@ -112,22 +112,21 @@ def judge_samples(judgement, name, state, mine, noise, family):
     s_scatter, mean_scatter = s_scatter * s_with / s, mean_scatter * s_with / s
     flown = state["flown"]
     if flown:
-        scatter = flown["scatter"]
         for i in range(6):
             judgement.within(
                 f"{name}: flown mean of {family['components'][i]}", flown["mean"][i], mean[i],
-                SCATTERS * np.hypot(mean_scatter[i], scatter["mean"][i]))
+                SCATTERS * np.hypot(mean_scatter[i], flown["mean_scatter"][i]))
             judgement.within(
                 f"{name}: flown deviation of {family['components'][i]}",
-                flown["standard_deviations"][i], s_with[i],
-                SCATTERS * np.hypot(s_scatter[i], scatter["standard_deviations"][i])
+                flown["standard_deviation"][i], s_with[i],
+                SCATTERS * np.hypot(s_scatter[i], flown["standard_deviation_scatter"][i])
                 + 0.02 * s_with[i])
     orders = family["orders"]
     if len(orders) < 2:
         return
     last, before = orders[-1], orders[-2]
-    told = np.array(last["standard_deviations"])
-    changes = np.abs(told - before["standard_deviations"])
+    told = np.array(last["standard_deviation"])
+    changes = np.abs(told - before["standard_deviation"])
     shifts = np.abs(np.subtract(last["mean"], before["mean"]))
     # Where orders still change the moments, what they leave out is as large, and each polynomial's
     # moments are no more than its own.

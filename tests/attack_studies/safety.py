@@ -134,25 +134,24 @@ def judge_pair(judgement, scene, told, pair, random):
             told_share = pair["probability_nearer"]
             judgement.wrong(f"{what}: nearer than {keep:.6g} m told {told_share:.5g} "
                             f"({lower:.5g} to {upper:.5g}), {hits} of {SAMPLES} flown")
-    margin = pair.get("keep_out")
-    if margin and margin["deviations"] is not None:
-        judge_margin(judgement, scene, what, margin, states, covariances, begin, end, random)
+    if pair.get("keep_out_deviations") is not None:
+        judge_margin(judgement, scene, what, pair, states, covariances, begin, end, random)
 
 
-def judge_margin(judgement, scene, what, margin, states, covariances, begin, end, random):
+def judge_margin(judgement, scene, what, pair, states, covariances, begin, end, random):
     """No deviations clearly shorter than the told ones may touch the ellipsoid."""
     axes = np.array(scene.tables["uncertainty"]["safety"]["keep_out_m"], dtype=REAL)
-    if margin["deviations"] == 0:
-        judgement.at_most(f"{what}: the means are inside, their ratio", margin["flown_ratio"], 1)
+    if pair["keep_out_deviations"] == 0:
+        judgement.at_most(f"{what}: the means are inside, their ratio", pair["keep_out_flown_ratio"], 1)
         return
-    if abs(margin["flown_ratio"] - 1) > 0.05:
-        if judgement.require(f"{what}: its deviations come to {margin['flown_ratio']:.3g} of the "
+    if abs(pair["keep_out_flown_ratio"] - 1) > 0.05:
+        if judgement.require(f"{what}: its deviations come to {pair['keep_out_flown_ratio']:.3g} of the "
                              "ellipsoid, and nothing says so", "in doubt" in scene.printed):
             judgement.mark(f"{what}: in doubt")
         return
     count = 200
     vectors = random.normal(size=(count, 12))
-    vectors *= (0.95 * margin["deviations"] / np.linalg.norm(vectors, axis=1))[:, None]
+    vectors *= (0.95 * pair["keep_out_deviations"] / np.linalg.norm(vectors, axis=1))[:, None]
     starts = []
     for k in range(2):
         factor = np.linalg.cholesky(covariances[k] * scaled(covariances[k]))

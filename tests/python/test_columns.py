@@ -17,6 +17,17 @@ from test_bounded import EVENT, SCENE as BOUNDED, SHORT
 from test_motion import CIRCLES
 from test_relative_motion import TRANSFER, columns
 from test_to_dataframe import VALIDITY
+from test_uncertainty import SCENE as UNCERTAINTY
+
+UNCERTAIN_PAIR = UNCERTAINTY + """
+[uncertainty.collision]
+radius_m = 50
+samples = 2000
+[uncertainty.safety]
+keep_apart_m = 50
+keep_out_m = [100, 200, 100]
+samples = 100
+"""
 
 #: By the name of the study's own table.
 STUDIES = {
@@ -28,6 +39,7 @@ STUDIES = {
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
     "assignment": lambda: hamjet.assign(
         SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml", overrides=["transfer.count=3"]),
+    "moments": lambda: hamjet.uncertainty(UNCERTAIN_PAIR),
     "poincare": lambda: hamjet.poincare(BOUNDED, overrides=SHORT),
     "event": lambda: hamjet.event(BOUNDED, overrides=EVENT),
     "bounded": lambda: hamjet.bounded(
@@ -35,7 +47,9 @@ STUDIES = {
         overrides=["bounded.revolutions=20", "bounded.box.days=2"]),
 }
 #: Where summary.json has the columns of further tables.
-PLACES = {"frozen_orbit": ["frozen_orbit"], "box": ["box"]}
+PLACES = {"collision": ["collision"], "least_separation": ["collision", "least_separation"],
+          "approaches": ["collision"], "safety": ["safety"],
+          "frozen_orbit": ["frozen_orbit"], "box": ["box"]}
 #: Columns that summary.json has in another form, or not.
 NOT_IN_JSON = {"best", "not_assigned", "start_change_m_s_by_order", "end_change_m_s_by_order"}
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -13,6 +14,7 @@
 #include "bounded_walks.hpp"
 #include "formation_walks.hpp"
 #include "table_walk.hpp"
+#include "uncertainty_walks.hpp"
 
 // All columns of all tables of results: of made-up results, in which no two numbers are the same,
 // the values are written down here, and CSV and summary.json have them under the declared names.
@@ -24,6 +26,7 @@ using namespace report_tables;
 
 std::vector<Walk> walks() {
   std::vector<Walk> all = formation_walks();
+  for (Walk& walk : uncertainty_walks()) all.push_back(std::move(walk));
   for (Walk& walk : long_motion_walks()) all.push_back(std::move(walk));
   return all;
 }
@@ -47,7 +50,27 @@ std::string unit_of_name(const std::string& name) {
   return "";
 }
 
-void expect_field(const std::string& field, const Json& value, const std::string& name) {
+/// A number may differ by what the report's computation of it rounds, and by nothing else.
+void expect_number(double found, double value, double rounding, const std::string& name) {
+  EXPECT_LE(std::abs(found - value), rounding * (1 + std::abs(value)))
+      << name << " is " << found << ", must be " << value;
+}
+
+void expect_json(const Json& found, const Json& value, double rounding, const std::string& name) {
+  if (found.is_array() && value.is_array()) {
+    ASSERT_EQ(found.size(), value.size()) << name;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      expect_json(found[i], value[i], rounding, name);
+    }
+  } else if (found.is_number() && value.is_number()) {
+    expect_number(found, value, rounding, name);
+  } else {
+    EXPECT_EQ(found, value) << name;
+  }
+}
+
+void expect_field(const std::string& field, const Json& value, double rounding,
+                  const std::string& name) {
   if (value.is_null()) {
     EXPECT_EQ(field, "") << name;
   } else if (value.is_string()) {
@@ -56,7 +79,7 @@ void expect_field(const std::string& field, const Json& value, const std::string
     EXPECT_EQ(field, value ? "true" : "false") << name;
   } else {
     ASSERT_NE(field, "") << name;
-    EXPECT_EQ(std::stod(field), value) << name;
+    expect_number(std::stod(field), value, rounding, name);
   }
 }
 
@@ -90,37 +113,61 @@ std::vector<Json> entries(const Json& value) {
 }
 
 /// A cell holds these values, which are what Python has of it.
-void expect_cell(const std::vector<CellValue>& cell, const Json& value, const std::string& name) {
+void expect_cell(const std::vector<CellValue>& cell, const Json& value, double rounding,
+                 const std::string& name) {
   const std::vector<Json> expected = entries(value);
   if (cell.empty()) {
     EXPECT_TRUE(value.is_null() || value.empty()) << name;
     return;
   }
   ASSERT_EQ(cell.size(), expected.size()) << name;
-  for (std::size_t i = 0; i < cell.size(); ++i) expect_field(csv_text(cell[i]), expected[i], name);
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    expect_field(csv_text(cell[i]), expected[i], rounding, name);
+  }
+}
+
+void expect_in_csv(const Walk& walk, const TableColumn& column, std::size_t row,
+                   const Json& value) {
+  const std::string name = walk.table.name + "." + column.name;
+  const auto file =
+      std::find_if(walk.report.files.begin(), walk.report.files.end(),
+                   [&](const ReportFile& one) { return one.path == walk.table.name + ".csv"; });
+  ASSERT_NE(file, walk.report.files.end()) << name;
+  const Table csv = parse(file->content);
+  for (std::size_t i = 0; i < column.parts.size(); ++i) {
+    const bool is_part = column.is_array() && !value.is_null();
+    expect_field(csv.at(row, column.parts[i]), is_part ? value[i] : value, walk.rounding, name);
+  }
+}
+
+/// The object that has arrays over the last dimension has the column's, or not where it holds
+/// nothing.
+void expect_in_arrays(const Walk& walk, const Json& summary, const TableColumn& column,
+                      std::size_t row, const Json& value) {
+  const std::string name = walk.place_of_arrays + "/" + column.name;
+  const Json& object = summary.at(Json::json_pointer(walk.place_of_arrays));
+  EXPECT_EQ(object.contains(column.name), !value.is_null()) << name;
+  if (value.is_null() || !object.contains(column.name)) return;
+  const bool is_array = column.level == walk.table.dimensions.size();
+  const Json& held = object[column.name];
+  const std::size_t last = row % walk.table.dimensions.back().length;
+  expect_json(is_array ? held.at(last) : held, value, walk.rounding, name);
 }
 
 /// A column's value in a row is in the view, in CSV under its name, and in summary.json.
 void expect_value(const Walk& walk, const Json& summary, const TableColumn& column, std::size_t row,
                   const Json& value) {
   const std::string name = walk.table.name + "." + column.name;
-  expect_cell(column.cells[walk.table.cell_of_row(column, row)], value, name);
-  if (column.is_in_csv) {
-    const auto file =
-        std::find_if(walk.report.files.begin(), walk.report.files.end(),
-                     [&](const ReportFile& one) { return one.path == walk.table.name + ".csv"; });
-    ASSERT_NE(file, walk.report.files.end()) << name;
-    const Table csv = parse(file->content);
-    for (std::size_t i = 0; i < column.parts.size(); ++i) {
-      const bool is_part = column.is_array() && !value.is_null();
-      expect_field(csv.at(row, column.parts[i]), is_part ? value[i] : value, name);
-    }
-  }
+  expect_cell(column.cells[walk.table.cell_of_row(column, row)], value, walk.rounding, name);
+  if (column.is_in_csv) expect_in_csv(walk, column, row, value);
   if (!column.is_in_json) return;
   for (const std::string& place : places(walk.table, column.level, row)) {
     const Json::json_pointer pointer(place + "/" + column.name);
     ASSERT_TRUE(summary.contains(pointer)) << name << " at " << pointer.to_string();
-    EXPECT_EQ(summary[pointer], value) << name << " at " << pointer.to_string();
+    expect_json(summary[pointer], value, walk.rounding, name + " at " + pointer.to_string());
+  }
+  if (!walk.place_of_arrays.empty() && column.level > 0) {
+    expect_in_arrays(walk, summary, column, row, value);
   }
 }
 

@@ -25,6 +25,9 @@ struct Walk {
   StudyReport report;
   std::vector<std::size_t> rows;  ///< the first, and the further ones
   ExpectedColumns columns;
+  /// The object whose members are arrays over the last dimension, where summary.json has no rows.
+  std::string place_of_arrays = {};
+  double rounding = 0;  ///< by which numbers may differ that the report computes
 };
 
 }  // namespace hamjet::io::report_tables

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,45 +10,36 @@ import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
-from .immutable import Immutable
 from .results import Floats, Progress
+from .studies import Columns
 
 #: The name of the scene that a pair makes, for messages.
 _NAME = "pair"
 
 
-@dataclass(frozen=True, eq=False)
-class Collisions(Immutable):
-    """Of pairs, whose dimensions are ... below; immutable, arrays read-only."""
+class Collisions(Columns, table="collision"):
+    """Of pairs, whose dimensions come before those below; immutable, arrays read-only.
 
-    probability: Floats  #: (...), of coming nearer than the radius in the window
-    interval: Floats  #: (..., 2), of the confidence, what samples and paths leave
-    path_error_m: Floats  #: (...), by how much distances along a path may be wrong
-    standard_error: Floats  #: (...)
-    samples: Floats  #: (...), that were drawn; 0 where no path comes near
-    hits: Floats  #: (...)
-    equivalent_samples: Floats  #: (...): so many plain ones would tell as much
-    change_from_lower_order: Floats  #: (...), by polynomials of one order less
-    times_s: Floats  #: (..., 201), equal parts of the window
-    by_time: Floats  #: (..., 201), the probability of having come nearer by then
-    separation_shares: Floats  #: (..., 4), of all cases
-    separations_m: Floats  #: (..., 4), below which these shares have their least separation
-    separation_intervals_m: Floats  #: (..., 4, 2), of the confidence
-    #: (...), the same as probability but where an edge of the window cuts a passage
-    whole_passage_probability: Floats
-    whole_passage_interval: Floats  #: (..., 2)
-    approach_time_s: Floats  #: (...), of the nearest approach of the means; NaN without one
-    approach_distance_m: Floats  #: (...)
-    approach_speed_m_s: Floats  #: (...)
-    foster: Floats  #: (...), by the formula of Foster and Estes for short encounters
-    alfano: Floats  #: (...), by that of Alfano
-    chan: Floats  #: (...), by that of Chan
-    short_encounter_departure: Floats  #: (...), the formulas hold below 0.1
-    confidence: float
+    Further tables are attributes with columns of their own, likewise: ``whole_passage``,
+    ``least_separation``, and of the nearest approach of the means, NaN without one, ``approach`` and
+    ``short_encounter``.
+    """
 
     def __repr__(self) -> str:
         return shown.of(self, f": {self.probability.size} of them, largest probability "
                         f"{shown.largest(self.probability)}")
+
+
+def _nearest(tables: dict[str, dict[str, Any]]) -> None:
+    """Keeps of the approaches the nearest one, NaN without one."""
+    distances = tables["approaches"]["distance_m"]
+    for name in ("approaches", "short_encounter"):
+        for column, values in tables[name].items():
+            # Flags that may be missing come as True, False and None: 1, 0 and NaN here.
+            array = np.array(values, dtype=float) if isinstance(values, tuple) else values
+            none = np.full(array.shape[1:], np.nan)
+            tables[name][column] = array[distances.argmin()] if len(distances) else none
+    tables["approach"] = tables.pop("approaches")
 
 
 def _numbers(values: npt.ArrayLike, place: str, tail: tuple[int, ...]) -> Floats:
@@ -125,13 +115,17 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
                        settings)
         found.append(_hamjet.study_collision(scenes.read(scene, None, _NAME),
                                              arguments.progress(progress)))
+        _nearest(found[-1])
     if not found:
         raise UsageError(f"states: no pair, got {both.shape}, must have one at least")
 
-    def stacked(name: str) -> Floats:
-        array = np.array([one[name] for one in found], dtype=np.float64)
+    def stacked(table: str, column: str) -> npt.NDArray[Any]:
+        array = np.array([one[table][column] for one in found])
         array = array.reshape(pairs + array.shape[1:])
         array.flags.writeable = False
         return array
 
-    return Collisions(**{name: stacked(name) for name in found[0]}, confidence=confidence)
+    tables = {table: {column: stacked(table, column) for column in columns}
+              for table, columns in found[0].items()}
+    own = tables.pop("collision")
+    return Collisions({**own, **{name: Columns(columns) for name, columns in tables.items()}})

@@ -45,16 +45,26 @@ class _Fixed(Immutable):
         raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
 
 
-class Columns(_Fixed):
+class _Described(_Fixed):
+    """A class that lists the columns of its table."""
+
+    def __init_subclass__(cls, table: str = "", **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        if table:
+            cls.__doc__ = f"{cls.__doc__}\n\n    Attributes:\n\n{described(table)}\n    "
+
+
+class Columns(_Described):
     """The columns of a further table of a study, as attributes by name; immutable.
 
-    ``table`` has them as the CSV file does, an entry for each of its rows.
+    ``table`` has them as the CSV file does, an entry for each of its rows; it is empty of what no
+    CSV file has.
     """
 
     table: Table
 
-    def __init__(self, columns: dict[str, Any], rows: dict[str, Any]) -> None:
-        vars(self).update(columns, table=types.MappingProxyType(rows))
+    def __init__(self, columns: dict[str, Any], rows: dict[str, Any] | None = None) -> None:
+        vars(self).update(columns, table=types.MappingProxyType(rows or {}))
 
     def __repr__(self) -> str:
         return shown.of(self, f": {shown.listed(name for name in vars(self) if name != 'table')}")
@@ -67,16 +77,11 @@ class Columns(_Fixed):
         return data_frame(self.table)
 
 
-class Study(_Fixed):
+class Study(_Described):
     """The columns of a study's own table as attributes by name, and its further tables by theirs."""
 
     table: Table  #: the columns of the study's CSV file, by name, an entry for each of its rows
     _study: Any
-
-    def __init_subclass__(cls, table: str = "", **keywords: Any) -> None:
-        super().__init_subclass__(**keywords)
-        if table:
-            cls.__doc__ = f"{cls.__doc__}\n\n    Attributes:\n\n{described(table)}\n    "
 
     def __init__(self, study: _hamjet._TableStudy) -> None:
         columns, rows = study.columns(), study.rows()

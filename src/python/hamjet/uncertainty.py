@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -13,78 +13,52 @@ from .errors import UsageError
 from .immutable import Immutable
 from .results import Floats, Progress
 from .studies import Study, required_study
-from .tables import Table, read_table
 
 
-@dataclass(frozen=True, eq=False)
-class Uncertainty(Study):
+class Uncertainty(Study, table="moments"):
     """Moments of S states at T times by the orders 1 to N; immutable, arrays read-only.
 
     Moments are of deviations from the chief's nominal, in m and m/s along the axes of the frame at
-    each time; those that begin with ``charted_`` are of the scene's other coordinates, canonical,
-    and NaN without such; those with ``flown_`` of samples that were flown with the full equations
-    of motion, with what they scatter by (one standard deviation), and NaN without samples.
+    each time. Further tables are attributes with columns of their own: ``cartesian`` has the moments
+    by polynomials of positions and velocities along (T, S, N), ``charted`` those of the scene's
+    other coordinates, canonical, and ``flown``, along (T, S), those of samples that were flown with
+    the full equations of motion; ``collision``, ``whole_passage``, ``least_separation``,
+    ``approaches``, ``short_encounter`` and ``safety`` are there where the scene asks for them.
     """
 
-    frame: str  #: of the results, in words
-    coordinates: str  #: the scene's, for example "flow-box"
-    states: tuple[str, ...]  #: S of "chief", "deputy" and "relative", the deputy less the chief
-    components: tuple[str, ...]  #: the six of a state; of RTN: R, T, N, vR, vT, vN
-    charted_components: tuple[str, ...]  #: those of the other coordinates at the last time
-    samples: int  #: that were flown
-    times_s: Floats  #: (T,)
-    mean: Floats  #: (T, S, N, 6)
-    standard_deviation: Floats  #: (T, S, N, 6)
-    skewness: Floats  #: (T, S, N, 6)
-    excess_kurtosis: Floats  #: (T, S, N, 6)
-    covariance: Floats  #: (T, S, N, 6, 6)
-    mardia_skewness: Floats  #: (T, S, N)
-    mardia_excess_kurtosis: Floats  #: (T, S, N)
-    #: (T, S, N): how non-Gaussian, in nats: of "chief" and "deputy" from the volume of the covariance,
-    #: which a flow does not change of a Gaussian start; of "relative", with noise or of a singular
-    #: start the leading terms, which say little above some tenths
-    negentropy: Floats
-    linear_error_of_probability: Floats  #: (T, S): the most by which the linear covariance errs
-    charted_mean: Floats  #: (T, S, N, 6)
-    charted_standard_deviation: Floats  #: (T, S, N, 6)
-    charted_skewness: Floats  #: (T, S, N, 6)
-    charted_excess_kurtosis: Floats  #: (T, S, N, 6)
-    charted_covariance: Floats  #: (T, S, N, 6, 6)
-    charted_mardia_skewness: Floats  #: (T, S, N)
-    charted_mardia_excess_kurtosis: Floats  #: (T, S, N)
-    charted_negentropy: Floats  #: (T, S, N)
-    flown_mean: Floats  #: (T, S, 6)
-    flown_standard_deviation: Floats  #: (T, S, 6)
-    flown_skewness: Floats  #: (T, S, 6)
-    flown_excess_kurtosis: Floats  #: (T, S, 6)
-    flown_covariance: Floats  #: (T, S, 6, 6)
-    flown_mardia_skewness: Floats  #: (T, S)
-    flown_mardia_excess_kurtosis: Floats  #: (T, S)
-    flown_negentropy: Floats  #: (T, S)
-    flown_mean_scatter: Floats  #: (T, S, 6)
-    flown_standard_deviation_scatter: Floats  #: (T, S, 6)
-    flown_skewness_scatter: Floats  #: (T, S, 6)
-    flown_excess_kurtosis_scatter: Floats  #: (T, S, 6)
-    #: By name of the coordinates that ``uncertainty.coordinates`` asks for and the orbit has, at the
-    #: last time: (S, N), nats.
-    negentropy_in: dict[str, Floats]
-    verdict: str  #: whether the linear covariance misleads: what ``hamjet uncertainty`` says first
-    notes: tuple[str, ...]  #: what to know beside the numbers
-    table: Table = field(repr=False)  #: the columns of ``moments.csv``, by name
-    _study: _hamjet.UncertaintyStudy | None = field(repr=False)
+    _study: _hamjet.UncertaintyStudy | None
 
     def __repr__(self) -> str:
-        return shown.of(self, f": {shown.span(self.times_s)}, {', '.join(self.states)}, "
-                        f"{self.frame}\n largest negentropy {shown.largest(self.negentropy)} "
-                        f"nats, in {self.coordinates} coordinates "
-                        f"{shown.largest(self.charted_negentropy)}")
+        times = self.cartesian.time_s
+        return shown.of(self, f": {shown.span(times)}, {', '.join(self.states)}, "
+                        f"{self.frame}\n largest negentropy "
+                        f"{shown.largest(self.cartesian.negentropy)} nats, in {self.coordinates} "
+                        f"coordinates {shown.largest(self.charted.negentropy)}")
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """S of "chief", "deputy" and "relative", the deputy less the chief."""
+        return tuple(dict.fromkeys(self.state))
+
+    @property
+    def negentropy_in(self) -> dict[str, Floats]:
+        """How non-Gaussian at the last time in coordinates themselves, by their name: (S, N), nats.
+
+        They are the scene's own and those that ``uncertainty.coordinates`` asks for and the orbit
+        has.
+        """
+        orders = self.cartesian.mean.shape[2]
+        last = self.time_s == self.time_s[-1]
+        return {name: self.negentropy[last & (np.array(self.polynomials) == name)
+                                      & (np.array(self.told_in) == name)].reshape(-1, orders)
+                for name in dict.fromkeys(self.told_in) if name in self.polynomials}
 
     def flown_states(self, time: int = -1, state: int = -1) -> Floats:
         """The samples' states at a time, by the places of both: (samples, 6), m and m/s.
 
         Raises UsageError.
         """
-        times, states = self.mean.shape[:2]
+        times, states = self.cartesian.mean.shape[:2]
         return required_study(self._study, "flown_states").flown_states(
             arguments.integer(time, "time", -times, times - 1) % times,
             arguments.integer(state, "state", -states, states - 1) % states)
@@ -114,14 +88,14 @@ def uncertainty(scene: scenes.Scene, *, overrides: scenes.Overrides | None = Non
                 progress: Progress | None = None) -> Uncertainty:
     """How a covariance grows, to every order, as ``hamjet uncertainty`` finds it.
 
-    The scene has a table [uncertainty]; with a table [uncertainty.collision] the member
-    ``collision`` of the summary has the probability that chief and deputy hit each other, and with
-    [uncertainty.safety] ``safety`` how near every pair of a formation comes where a burn fails.
+    The scene has a table [uncertainty]; with a table [uncertainty.collision] ``collision`` has the
+    probability that chief and deputy hit each other, and with [uncertainty.safety] ``safety`` how
+    near every pair of a formation comes where a burn fails.
     Arguments as of ``run``. Raises SceneError, UsageError,
     NumericalError, TooLargeError, InputOutputError.
     """
     study = _hamjet.study_uncertainty(scenes.read(scene, overrides), arguments.progress(progress))
-    return Uncertainty(**study.arrays(), table=read_table(study.csv), _study=study)
+    return Uncertainty(study)
 
 
 def _array(values: npt.ArrayLike, place: str, dtype: Any) -> npt.NDArray[Any]:
@@ -154,4 +128,5 @@ def polynomial_moments(coefficients: npt.ArrayLike, exponents: npt.ArrayLike,
     if matrix.shape != (powers.shape[1], powers.shape[1]):
         raise UsageError(f"covariance: wrong shape, got {matrix.shape}, must be (v, v) with the "
                          f"exponents' {powers.shape[1]} columns")
-    return Moments(**_hamjet.polynomial_moments(rows, powers, matrix))
+    columns = _hamjet.polynomial_moments(rows, powers, matrix)
+    return Moments(**{each.name: columns[each.name][0] for each in fields(Moments)})

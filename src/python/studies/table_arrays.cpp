@@ -133,7 +133,9 @@ py::dict declarations() {
     for (const io::TableColumn& column : table.columns) {
       py::list dimensions;
       for (std::size_t i = 0; i < column.level; ++i) dimensions.append(table.dimensions[i].name);
-      for (const std::size_t length : column.lengths) dimensions.append(length);
+      for (const std::size_t length : column.lengths) {
+        dimensions.append(length == 0 ? py::object(py::str("any")) : py::int_(length));
+      }
       columns[py::str(column.name)] =
           py::make_tuple(column.unit, column.meaning, py::tuple(dimensions));
     }

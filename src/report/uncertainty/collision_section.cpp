@@ -5,97 +5,30 @@
 #include <cmath>
 
 #include "../../formats/orbit_messages/encounter_message.hpp"
-#include "../../store/csv_values.hpp"
-#include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 #include "../drawing/along_time_charts.hpp"
+#include "collision_table.hpp"
 
 namespace hamjet::io {
 namespace {
 
-nlohmann::ordered_json plane_json(const ShortEncounter& plane) {
-  return {{"foster", plane.foster},
-          {"alfano", plane.alfano},
-          {"chan", plane.chan},
-          {"offset_m", plane.offset},
-          {"deviation_m", plane.deviation},
-          {"passage_s", plane.passage},
-          {"departure", plane.departure},
-          {"cut_by_window", plane.is_cut},
-          {"holds", plane.holds()}};
-}
-
-nlohmann::ordered_json approach_json(const UncertainApproach& approach, double radius_m) {
-  const auto of_flights = [&](double error) {
-    return approach.flights > 0 ? nlohmann::ordered_json(error) : nlohmann::ordered_json();
-  };
-  nlohmann::ordered_json json = {{"time_s", approach.time_s},
-                                 {"distance_m", approach.distance_m},
-                                 {"speed_m_s", approach.speed_m_s},
-                                 {"time_deviation_s", approach.time_deviation_s},
-                                 {"distance_deviation_m", approach.distance_deviation_m},
-                                 {"flights", approach.flights},
-                                 {"polynomials_hold", approach.holds(radius_m)},
-                                 {"position_error_m", of_flights(approach.position_error_m)},
-                                 {"time_error_s", of_flights(approach.time_error_s)}};
-  if (approach.plane) {
-    json["short_encounter"] = plane_json(*approach.plane);
-  } else {
-    json["no_short_encounter"] = approach.refusal;
-  }
-  return json;
-}
-
-template <class Enumerator, std::size_t Count>
-std::string_view name_in(const std::array<std::string_view, Count>& names, Enumerator value) {
-  return names[static_cast<std::size_t>(value)];
-}
-
 nlohmann::ordered_json collision_json(const CollisionResult& result) {
-  const CollisionProbability& p = result.probability;
-  nlohmann::ordered_json json = {{"radius_m", result.watch.radius_m},
-                                 {"window_s", {result.from_s, result.to_s}},
-                                 {"window_widened", result.is_widened},
-                                 {"event", name_in(collision_event_names, result.watch.event)},
-                                 {"order", result.order},
-                                 {"sampling", name_in(collision_sampling_names, p.sampling)},
-                                 {"probability", p.probability},
-                                 {"confidence", result.watch.confidence},
-                                 {"interval", {p.lower, p.upper}},
-                                 {"path_error_m", p.path_error},
-                                 {"standard_error", p.standard_error},
-                                 {"samples", p.samples},
-                                 {"hits", p.hits},
-                                 {"equivalent_samples", p.equivalent_samples},
-                                 {"change_from_lower_order", p.change_from_lower_order},
-                                 {"standard_error_of_change", p.standard_error_of_change}};
-  if (p.sampled_radius) json["sampled_radius_m"] = *p.sampled_radius;
-  if (p.largest_difference) json["largest_difference_m"] = *p.largest_difference;
+  nlohmann::ordered_json json = table_json(collision_table(result));
   json["whole_passage"] = nullptr;
-  if (const auto& whole = result.of_whole_passage) {
-    json["whole_passage"] = {{"window_s", {result.whole_from_s, result.whole_to_s}},
-                             {"probability", whole->probability},
-                             {"interval", {whole->lower, whole->upper}},
-                             {"path_error_m", whole->path_error},
-                             {"standard_error", whole->standard_error}};
-  }
+  if (result.of_whole_passage) json["whole_passage"] = table_json(whole_passage_table(result));
   json["warnings"] = result.warnings;
-  json["least_separation"] = {{"samples", result.separations.samples},
-                              {"shares", result.separations.shares},
-                              {"separations_m", result.separations.separations},
-                              {"errors_m", result.separations.errors},
-                              {"flights", result.separations.flights},
-                              {"flight_difference_m", result.separations.flight_difference},
-                              {"lower_m", result.separations.lower},
-                              {"upper_m", nlohmann::ordered_json::array()}};
-  for (const double upper : result.separations.upper) {
-    json["least_separation"]["upper_m"].push_back(json_number(upper));
-  }
-  json["approaches"] = nlohmann::ordered_json::array();
-  for (const UncertainApproach& approach : result.approaches) {
-    json["approaches"].push_back(approach_json(approach, result.watch.radius_m));
+  json["least_separation"] = table_json(least_separation_table(result));
+  json.update(table_json(approaches_table(result)));
+  const TableView planes = short_encounter_table(result);
+  for (std::size_t k = 0; k < result.approaches.size(); ++k) {
+    nlohmann::ordered_json& approach = json["approaches"][k];
+    if (result.approaches[k].plane) {
+      approach["short_encounter"] = row_json(planes, k);
+    } else {
+      approach["no_short_encounter"] = result.approaches[k].refusal;
+    }
   }
   json["seconds"] = result.seconds;
   return json;
@@ -238,11 +171,7 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
   section.table = collision_table_text(result);
   section.title = "Collision";
   if (p.probability > 0) section.charts.push_back(probability_chart(scene, result));
-  std::string csv = "time_s,probability\n";
-  for (std::size_t k = 0; k < p.times.size(); ++k) {
-    csv += fmt::format("{},{}\n", csv_number(p.times[k]), csv_number(p.by_time[k]));
-  }
-  section.files.push_back({"collision.csv", csv});
+  section.files.push_back({"collision.csv", table_csv(collision_table(result))});
   const auto lack = encounter_message_lack(scene, result);
   if (!lack) {
     section.files.push_back({"encounter.cdm", cdm_text(encounter_message(scene, result))});

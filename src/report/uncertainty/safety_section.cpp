@@ -4,17 +4,15 @@
 
 #include <algorithm>
 
-#include "../../store/csv_values.hpp"
-#include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "safety_table.hpp"
 
 namespace hamjet::io {
 namespace {
 
 std::string burn_text(const SafetyPair& pair) {
-  if (!pair.burn_share) return "no part in it";
   if (*pair.burn_share == 0) return "not done";
   if (*pair.burn_share == 1) return "done";
   return fmt::format("{:g} % done", 100 * *pair.burn_share);
@@ -22,9 +20,9 @@ std::string burn_text(const SafetyPair& pair) {
 
 std::string pair_text(const SafetyPair& pair) { return pair.first + " and " + pair.second; }
 
-/// Whether the flight with the deviation that is told does not touch the ellipsoid.
-bool is_in_doubt(const SafetyPair& pair) {
-  return pair.margin && pair.margin->deviations.value_or(0) > 0 && !pair.margin->is_confirmed();
+/// With the share of the burn, if the pair has a part in it.
+std::string case_text(const SafetyPair& pair) {
+  return pair_text(pair) + (pair.burn_share ? ", burn " + burn_text(pair) : "");
 }
 
 std::string margin_text(const SafetyPair& pair) {
@@ -37,25 +35,12 @@ std::string margin_text(const SafetyPair& pair) {
   return pair.refusal.empty() ? "-" : "not found";
 }
 
-double nearer_share(const SafetyPair& pair) {
-  return static_cast<double>(pair.separations.nearer) /
-         static_cast<double>(pair.separations.samples);
-}
-
-bool has_burn(const SafetyResult& result) {
-  for (const SafetyPair& pair : result.pairs) {
-    if (pair.burn_share) return true;
-  }
-  return false;
-}
-
 /// Of the checks that the scene asks for, a sentence for each pair that fails one.
 std::vector<std::string> failed_checks(const SafetyResult& result) {
   const SafetyWatch& watch = result.watch;
   std::vector<std::string> failed;
   for (const SafetyPair& pair : result.pairs) {
-    const std::string whose =
-        pair_text(pair) + (pair.burn_share ? ", burn " + burn_text(pair) : "");
+    const std::string whose = case_text(pair);
     const double surely = pair.separations.lower[0];
     if (watch.least_separation_m && !(surely >= *watch.least_separation_m)) {
       failed.push_back(fmt::format(
@@ -101,61 +86,20 @@ std::vector<std::string> warnings_of(const SafetyResult& result) {
   return warnings;
 }
 
-nlohmann::ordered_json pair_json(const SafetyPair& pair) {
-  const LeastSeparations& s = pair.separations;
-  nlohmann::ordered_json json = {{"first", pair.first},
-                                 {"second", pair.second},
-                                 {"burn_share", nullptr},
-                                 {"mean_separation_m", pair.mean_separation_m},
-                                 {"separation_m", s.separations[0]},
-                                 {"separation_interval_m", {s.lower[0], json_number(s.upper[0])}},
-                                 {"separation_error_m", s.errors[0]},
-                                 {"samples", s.samples},
-                                 {"nearer", s.nearer},
-                                 {"probability_nearer", nearer_share(pair)},
-                                 {"probability_nearer_interval", {s.lower_nearer, s.upper_nearer}},
-                                 {"flights", s.flights},
-                                 {"flight_difference_m", s.flight_difference}};
-  if (pair.burn_share) json["burn_share"] = *pair.burn_share;
-  if (pair.margin) {
-    nlohmann::ordered_json margin = {{"deviations", nullptr}};
-    if (pair.margin->deviations) {
-      margin = {{"deviations", *pair.margin->deviations},
-                {"time_s", pair.margin->time},
-                {"flown_ratio", pair.margin->flown_ratio},
-                {"in_doubt", is_in_doubt(pair)}};
-    }
-    json["keep_out"] = margin;
-  } else if (!pair.refusal.empty()) {
-    json["no_keep_out"] = pair.refusal;
-  }
-  return json;
-}
-
 nlohmann::ordered_json safety_json(const SafetyResult& result) {
-  nlohmann::ordered_json json = {{"keep_apart_m", result.watch.keep_apart_m},
-                                 {"window_s", {result.from_s, result.to_s}},
-                                 {"share", result.watch.share},
-                                 {"confidence", result.watch.confidence},
-                                 {"order", result.order}};
-  if (result.watch.keep_out_m) {
-    const Eigen::Vector3d& axes = *result.watch.keep_out_m;
-    json["keep_out_m"] = {axes[0], axes[1], axes[2]};
-  }
-  if (const auto& least = result.watch.least_separation_m) json["least_separation_m"] = *least;
-  if (const auto& least = result.watch.least_deviations) json["least_deviations"] = *least;
+  nlohmann::ordered_json json = table_json(safety_table(result));
+  // The rows come behind what is said of all of them.
+  const nlohmann::ordered_json pairs = std::move(json["pairs"]);
+  json.erase("pairs");
   json["warnings"] = warnings_of(result);
   json["failed_checks"] = failed_checks(result);
-  json["pairs"] = nlohmann::ordered_json::array();
-  for (const SafetyPair& pair : result.pairs) json["pairs"].push_back(pair_json(pair));
+  json["pairs"] = pairs;
   json["seconds"] = result.seconds;
   return json;
 }
 
 std::vector<std::vector<std::string>> safety_rows(const SafetyResult& result) {
-  const bool with_burn = has_burn(result);
   std::vector<std::vector<std::string>> rows = {{"pair"}};
-  if (with_burn) rows[0].emplace_back("burn");
   rows[0].emplace_back("least of means (m)");
   rows[0].push_back(fmt::format("{:g} % beyond (m)", 100 * result.watch.share));
   rows[0].push_back(fmt::format("{:g} % interval", 100 * result.watch.confidence));
@@ -163,8 +107,8 @@ std::vector<std::vector<std::string>> safety_rows(const SafetyResult& result) {
   if (result.watch.keep_out_m) rows[0].emplace_back("keeps out up to");
   for (const SafetyPair& pair : result.pairs) {
     const LeastSeparations& s = pair.separations;
-    rows.push_back({pair_text(pair)});
-    if (with_burn) rows.back().push_back(burn_text(pair));
+    // A table that is broken in two repeats its first column alone.
+    rows.push_back({case_text(pair)});
     rows.back().push_back(fmt::format("{:.4g}", pair.mean_separation_m));
     rows.back().push_back(fmt::format("{:.4g}", s.separations[0]));
     rows.back().push_back(fmt::format("{:.4g} to {:.4g}", s.lower[0], s.upper[0]));
@@ -220,8 +164,7 @@ Chart separations_chart(const SafetyResult& result) {
   std::size_t style = 0;
   for (const SafetyPair& pair : result.pairs) {
     ChartCurve curve;
-    curve.title = pair_text(pair);
-    if (pair.burn_share) curve.title += ", burn " + burn_text(pair);
+    curve.title = case_text(pair);
     curve.style = style++;
     curve.has_markers = false;
     for (std::size_t k = 1; k < pair.separations.shares.size(); ++k) {
@@ -230,27 +173,6 @@ Chart separations_chart(const SafetyResult& result) {
     chart.curves.push_back(std::move(curve));
   }
   return chart;
-}
-
-std::string safety_csv(const SafetyResult& result) {
-  std::string csv =
-      "first,second,burn_share,mean_separation_m,separation_m,separation_lower_m,"
-      "separation_upper_m,samples,nearer,probability_lower,probability_upper,"
-      "flight_difference_m,keep_out_deviations,keep_out_time_s,keep_out_flown_ratio\n";
-  for (const SafetyPair& pair : result.pairs) {
-    const LeastSeparations& s = pair.separations;
-    const bool touches = pair.margin && pair.margin->deviations;
-    const auto of_margin = [&](double value) { return touches ? csv_number(value) : ""; };
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", pair.first, pair.second,
-                       csv_number(pair.burn_share), csv_number(pair.mean_separation_m),
-                       csv_number(s.separations[0]), csv_number(s.lower[0]), csv_number(s.upper[0]),
-                       s.samples, s.nearer, csv_number(s.lower_nearer), csv_number(s.upper_nearer),
-                       csv_number(s.flight_difference),
-                       of_margin(touches ? *pair.margin->deviations : 0),
-                       of_margin(touches ? pair.margin->time : 0),
-                       of_margin(touches ? pair.margin->flown_ratio : 0));
-  }
-  return csv;
 }
 
 }  // namespace
@@ -267,7 +189,7 @@ UncertaintySection safety_section(const SafetyResult& result) {
   section.charts.push_back(separations_chart(result));
   section.warnings = warnings_of(result);
   section.failed_checks = failed_checks(result);
-  section.files.push_back({"safety.csv", safety_csv(result)});
+  section.files.push_back({"safety.csv", table_csv(safety_table(result))});
   return section;
 }
 

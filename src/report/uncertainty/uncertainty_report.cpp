@@ -14,6 +14,7 @@
 #include "../study_checks.hpp"
 #include "collision_section.hpp"
 #include "hamjet/error.hpp"
+#include "moments_table.hpp"
 #include "safety_section.hpp"
 #include "uncertainty_view.hpp"
 
@@ -224,7 +225,7 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   if (result.safety) sections.push_back(safety_section(*result.safety));
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"moments.csv", moments_csv(result)},
+  report.files = {{"moments.csv", table_csv(moments_table(result))},
                   {"report.html", page(result, origin, sections, drawer)}};
   for (const UncertaintySection& section : sections) {
     report.files.insert(report.files.end(), section.files.begin(), section.files.end());

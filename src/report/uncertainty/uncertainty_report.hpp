@@ -26,10 +26,6 @@ struct UncertaintySection {
   std::vector<std::string> failed_checks;  ///< that the scene asks for, a sentence each
 };
 
-/// `moments.csv`: a row for each time, state, family, order and component; those of flown samples
-/// with the standard deviations that they scatter by.
-std::string moments_csv(const UncertaintyResult& result);
-
 /// `summary.json`.
 nlohmann::ordered_json uncertainty_json(const UncertaintyResult& result);
 

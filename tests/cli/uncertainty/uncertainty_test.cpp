@@ -39,7 +39,7 @@ TEST_F(UncertaintyCommand, SaysWhetherTheLinearCovarianceMisleads) {
   EXPECT_EQ(state["flown"]["samples"], 200);
   // After whole revolutions of a circle, Clohessy and Wiltshire: N and vN are as at the start, and
   // R too, for the drift is along T alone.
-  const Json& linear = state["families"][0]["orders"][0]["standard_deviations"];
+  const Json& linear = state["families"][0]["orders"][0]["standard_deviation"];
   EXPECT_NEAR(linear[0].get<double>() / 1000, 1, 1e-6);
   EXPECT_NEAR(linear[2].get<double>() / 1000, 1, 1e-6);
   EXPECT_NEAR(linear[5].get<double>(), 1, 1e-6);
