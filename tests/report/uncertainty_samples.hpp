@@ -139,7 +139,7 @@ inline UncertaintyResult sample_uncertainty() {
   flown.deviation_error = Vector<double>::Constant(6, 0.02);
   flown.skewness_error = Vector<double>::Constant(6, 0.03);
   flown.kurtosis_error = Vector<double>::Constant(6, 0.04);
-  state.flown_states = Matrix<double>(6, 0);
+  state.flown_states = Matrix<double>{{0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}, {0, 6}};
   UncertaintyAt at;
   at.time = 2.5;
   at.charted_names = {"a", "b", "c", "d", "e", "f"};
