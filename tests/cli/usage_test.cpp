@@ -86,7 +86,7 @@ TEST_F(Usage, Lists) {
 TEST_F(Usage, AListOfEverything) {
   const std::string all = succeed({"list"}).out;
   std::size_t at = 0;
-  for (const char* topic : {"systems", "integrators", "kinds", "keys"}) {
+  for (const char* topic : {"systems", "integrators", "kinds", "keys", "columns"}) {
     const std::string text = succeed({"list", topic}).out;
     const std::size_t found = all.find(text, at);
     ASSERT_NE(found, std::string::npos) << topic;

@@ -54,7 +54,7 @@ expect 'pdf png' hamjet compare orbit.toml --plots ''
 expect 'pdf' hamjet compare orbit.toml --plots pd
 expect 'pdf png' hamjet compare orbit.toml --plots =
 expect 'pdf' hamjet compare orbit.toml --plots = pd
-expect 'integrators keys kinds systems' hamjet list ''
+expect 'columns integrators keys kinds systems' hamjet list ''
 expect 'geo gto leo molniya pair' hamjet init ''
 expect "$commands" hamjet help ''
 expect 'RTN canonical curvilinear element-differences inertial relative-elements' hamjet eval out/scene --frame ''

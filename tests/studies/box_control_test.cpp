@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "../poincare/independent_flight.hpp"
+#include "impulses/circle_transfers.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
-#include "impulses/circle_transfers.hpp"
 #include "studies/exact_flow.hpp"
 
 namespace hamjet {
