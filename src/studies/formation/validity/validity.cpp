@@ -238,8 +238,10 @@ class ValidityStudy {
   /// chosen far apart. The deputies that are found are added to the samples.
   FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation,
                                 std::vector<FlownDeputies::Worst> samples) {
-    constexpr std::size_t most_starts = 6;
-    constexpr double apart = 0.5;
+    // After whole revolutions the polynomials' own parts say little of what they neglect, and few
+    // starts leave a maximum out.
+    constexpr std::size_t most_starts = 16;
+    constexpr double apart = 0.3;
     std::sort(samples.begin(), samples.end(),
               [](const auto& a, const auto& b) { return a.miss > b.miss; });
     FlownDeputies::Worst worst = samples.front();
