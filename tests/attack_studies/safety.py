@@ -168,8 +168,8 @@ def judge_margin(judgement, scene, what, pair, states, covariances, begin, end, 
     T = np.cross(N, R)
     apart = (deputies - chiefs)[..., :3]
     ratio = np.sqrt(sum((np.sum(apart * a, axis=-1) / w) ** 2 for a, w in zip((R, T, N), axes)))
-    judgement.at_most(f"{what}: least ratio within 0.95 of {margin['deviations']:.4g} deviations, "
-                      "negative", -float(np.min(ratio)), -0.99)
+    judgement.at_most(f"{what}: least ratio within 0.95 of {pair['keep_out_deviations']:.4g} "
+                      "deviations, negative", -float(np.min(ratio)), -0.99)
 
 
 def scaled(covariance):
