@@ -229,8 +229,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
       }
       bool is_over = false;
       while (!is_over) {
-        // Perturbations make the true rate of the angle differ from the known rate by a small
-        // fraction.
+        // Perturbations make the true rate differ from the known one by a small fraction.
         constexpr double margin = 1.01;
         std::array<double, block> wanted{};
         for (std::size_t lane = 0; lane < searches.size(); ++lane) {
@@ -251,8 +250,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
 
     bool is_angle(std::size_t place) const { return flow.map_.start->chart().is_angle(place); }
 
-    /// An approximate rate of the angle: Kepler's rate times the ratio of the chief's rate to
-    /// Kepler's.
+    /// Kepler's rate of the angle times the ratio of the chief's rate to Kepler's.
     double rate_of(const SixNumbers<double>& z) const { return rate_share * keplerian_rate(z); }
 
     double keplerian_rate(const SixNumbers<double>& z) const {

@@ -16,6 +16,7 @@
 #include "../studies/formation/deputy_flows.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
+#include "../text/scene_refusal.hpp"
 #include "demo_scene.hpp"
 #include "hamjet/error.hpp"
 #include "process/standard_streams.hpp"
@@ -83,14 +84,7 @@ Scene read_scene(const RunOptions& options, io::SceneUnits units) {
 Scene read_unsplit_scene(const RunOptions& options, const std::string& command,
                          io::SceneUnits units) {
   Scene scene = read_scene(options, units);
-  try {
-    require_unsplit(scene, command);
-  } catch (const Error& error) {
-    throw Error(
-        error.kind(),
-        fmt::format("{}: {}", io::printable(options.scene_file.value_or(""), std::string::npos),
-                    error.what()));
-  }
+  io::naming_file(options.scene_file.value_or(""), [&] { require_unsplit(scene, command); });
   return scene;
 }
 

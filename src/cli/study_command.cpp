@@ -8,11 +8,11 @@
 
 #include "../app/processors.hpp"
 #include "../app/report_origin.hpp"
-#include "../app/scene_refusal.hpp"
 #include "../report/study_description.hpp"
 #include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
+#include "../text/scene_refusal.hpp"
 #include "../text/terminal_text.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/store/output_directory.hpp"
@@ -89,7 +89,7 @@ int study(const RunOptions& options, std::string_view command) {
   if (described.notes_escape) note_escape(options, scene);
   return report_study(
       options, scene.name + described.suffix(), [&](const ProgressCallback& progress) {
-        return study_of(*options.scene_file, [&] {
+        return io::naming_file(*options.scene_file, [&] {
           return described.report(scene,
                                   {progress, report_origin(options.command), usable_processors()});
         });

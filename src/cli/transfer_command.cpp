@@ -7,10 +7,10 @@
 #include <system_error>
 
 #include "../app/report_origin.hpp"
-#include "../app/scene_refusal.hpp"
 #include "../app/stored_chief.hpp"
 #include "../report/study_description.hpp"
 #include "../text/scene_message.hpp"
+#include "../text/scene_refusal.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
@@ -103,7 +103,8 @@ int transfer_by_stored_jet(const RunOptions& options, const StoredJetChoice& jet
   }
   return report_study(options, name, [&](const ProgressCallback& progress) {
     return io::flown_transfer_report(
-        study_of(*options.scene_file, [&] { return study_transfer(scene, progress, &earlier); }),
+        io::naming_file(*options.scene_file,
+                        [&] { return study_transfer(scene, progress, &earlier); }),
         report_origin(options.command));
   });
 }

@@ -1,8 +1,8 @@
 #include "validity_command.hpp"
 
 #include "../app/report_origin.hpp"
-#include "../app/scene_refusal.hpp"
 #include "../report/study_description.hpp"
+#include "../text/scene_refusal.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "study_command.hpp"
 
@@ -14,7 +14,8 @@ int validity_in_all_coordinates(const RunOptions& options) {
   io::require_scene_of(study, scene, *options.scene_file);
   return report_study(options, scene.name + study.suffix(), [&](const ProgressCallback& progress) {
     return io::coordinates_report(
-        study_of(*options.scene_file, [&] { return study_validity_in_all(scene, progress); }),
+        io::naming_file(*options.scene_file,
+                        [&] { return study_validity_in_all(scene, progress); }),
         report_origin(options.command));
   });
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "../app/processors.hpp"
-#include "../app/scene_refusal.hpp"
 #include "../studies/many_flows.hpp"
+#include "../text/scene_refusal.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -104,7 +104,7 @@ ManyStudy integrate_many(const GivenScene& given, const std::string& run, const 
   }
   return interruptibly(progress, [scene, file = given.file, run, rows = std::move(rows), is_in_km,
                                   count](const ProgressCallback& report) {
-    return ManyStudy(cli::study_of(
+    return ManyStudy(io::naming_file(
         file, [&] { return study_many_flows(scene, run, rows, is_in_km, count, report); }));
   });
 }

@@ -11,6 +11,7 @@
 #include "../studies/formation/deputy_motion.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "../text/scene_message.hpp"
+#include "../text/scene_refusal.hpp"
 #include "bounded/bounded_report.hpp"
 #include "bounded/event_report.hpp"
 #include "bounded/frozen_orbit_report.hpp"
@@ -177,13 +178,7 @@ void require_table(const StudyDescription& study, const Scene& scene, const std:
 }
 
 void require_scene_of(const StudyDescription& study, const Scene& scene, const std::string& file) {
-  try {
-    require_unsplit(scene, fmt::format("hamjet {}", study.command));
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::scene) throw;
-    throw Error(ErrorKind::scene,
-                fmt::format("{}: {}", printable(file, std::string::npos), error.what()));
-  }
+  naming_file(file, [&] { require_unsplit(scene, fmt::format("hamjet {}", study.command)); });
   require_table(study, scene, file);
 }
 

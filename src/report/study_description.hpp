@@ -24,12 +24,11 @@ struct StudyWork {
 /// All that the program knows of a study that works on a table of a scene. Commands, their help and
 /// completion, sweeps, `hamjet check` and the Python module read it; nothing else lists studies.
 struct StudyDescription {
-  std::string_view command = {};  ///< `hamjet <command>`, and the end of the name of its results
-  std::string_view purpose = {};  ///< the command's line of help
-  std::string_view files = {};    ///< what the command writes, for its help
-  std::string_view example = {};  ///< what `hamjet --help` says of `hamjet <command> scene.toml`
-  std::string_view table =
-      {};  ///< the key of the table that the study works on; empty: it needs none
+  std::string_view command = {};   ///< `hamjet <command>`, and the end of the name of its results
+  std::string_view purpose = {};   ///< the command's line of help
+  std::string_view files = {};     ///< what the command writes, for its help
+  std::string_view example = {};   ///< what `hamjet --help` says of `hamjet <command> scene.toml`
+  std::string_view table = {};     ///< the key of the table that it works on; empty: none
   std::string_view smallest = {};  ///< what the smallest such table holds, in one line
   bool (*has_table)(const Scene& scene) = nullptr;
   /// The study and its report. Throws what the study throws.

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "../charts/orbits.hpp"
+#include "../support/flow.hpp"
 #include "charts/secular_motion.hpp"
 #include "hamjet/error.hpp"
 #include "independent_flight.hpp"
@@ -18,7 +19,7 @@ using test::ChiefOrbit;
 using test::IndependentFlight;
 using test::orbit_of;
 
-const GaussSettings integration_gauss = test::gauss_of(1e-13);
+const GaussSettings integration_gauss = test::adaptive(8, 1e-13);
 
 ChiefOrbit in_egm96(ChiefOrbit orbit) {
   orbit.field = test::egm96(orbit.field.radius);

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "../charts/orbits.hpp"
+#include "../support/flow.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "hamjet/error.hpp"
@@ -19,7 +20,7 @@ using test::ChiefOrbit;
 using test::IndependentFlight;
 using test::orbit_of;
 
-const GaussSettings event_gauss = test::gauss_of(1e-14);
+const GaussSettings event_gauss = test::adaptive(8, 1e-14);
 
 /// The ascending node: the height over the equator.
 Series<double> height(const SixNumbers<Series<double>>& z) { return z[2]; }

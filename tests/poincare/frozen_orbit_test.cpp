@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "../charts/orbits.hpp"
+#include "../support/flow.hpp"
 #include "charts/secular_motion.hpp"
 #include "hamjet/error.hpp"
 #include "independent_flight.hpp"
@@ -18,7 +19,7 @@ using test::ChiefOrbit;
 using test::IndependentFlight;
 using test::orbit_of;
 
-const GaussSettings return_gauss = test::gauss_of(1e-14);
+const GaussSettings return_gauss = test::adaptive(8, 1e-14);
 constexpr double turn = 2 * std::numbers::pi;
 
 FrozenOrbit<double> frozen_of(const ChiefOrbit& orbit) {
@@ -42,7 +43,8 @@ TEST(FrozenOrbit, IsAFixedPointOfAnIndependentFlight) {
   const ChiefOrbit orbit = sun_synchronous();
   SixNumbers<Extended> start;
   for (std::size_t i = 0; i < 6; ++i) start[i] = orbit.start[i];
-  const auto frozen = find_frozen_orbit<Extended>(orbit.field, start, true, test::gauss_of(1e-22));
+  const auto frozen =
+      find_frozen_orbit<Extended>(orbit.field, start, true, test::adaptive(8, 1e-22));
   EXPECT_LT(frozen.residual, Extended(1e-20));
   IndependentFlight::State state;
   for (std::size_t i = 0; i < 6; ++i) state[i] = static_cast<long double>(frozen.state[i]);

@@ -92,7 +92,7 @@ inline TransferResult whole_transfer() {
 }
 
 inline StudyReport report_of(const TransferResult& result) {
-  return transfer_report(result, std::nullopt, std::nullopt, sample_transfer_origin());
+  return transfer_report(result, std::nullopt, sample_transfer_origin());
 }
 
 /// The columns of one transfer, of whole_transfer's last time, in rows 5, 2 and 4.

@@ -48,7 +48,7 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
             "have one. "
             "Between the listed times nothing was searched.");
   const std::string page = page_of(
-      transfer_report(result, sample_trajectory(), sample_validity(), sample_transfer_origin()));
+      transfer_report(with_validity(result), sample_trajectory(), sample_transfer_origin()));
   const std::size_t place = page.find(escape_html(verdict));
   ASSERT_NE(place, std::string::npos);
   EXPECT_LT(place, page.find("<main>"));
@@ -62,7 +62,7 @@ TEST(TransferPage, BeginsWithTheLeastVelocityChangeItsTimeAndTheMisses) {
 
 TEST(TransferPage, WithoutGnuplotTheTablesAreThere) {
   const StudyReport report =
-      transfer_report(sample_transfer(), sample_trajectory(), {}, sample_transfer_origin());
+      transfer_report(sample_transfer(), sample_trajectory(), sample_transfer_origin());
   ASSERT_TRUE(report.drawing_problem);
   const std::string page = page_of(report);
   EXPECT_EQ(test::occurrences(page, "is not installed"), 1U);
@@ -72,8 +72,8 @@ TEST(TransferPage, WithoutGnuplotTheTablesAreThere) {
 
 TEST(TransferPage, HasEveryPlotInTwoWidthsWithUniqueIds) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const StudyReport report = transfer_report(sample_transfer(), sample_trajectory(),
-                                             sample_validity(), sample_transfer_origin("gnuplot"));
+  const StudyReport report = transfer_report(with_validity(sample_transfer()), sample_trajectory(),
+                                             sample_transfer_origin("gnuplot"));
   EXPECT_FALSE(report.drawing_problem) << *report.drawing_problem;
   const std::string page = page_of(report);
   // Velocity change, three projections, misses, conditions, validity along time and order.

@@ -156,9 +156,8 @@ TEST(TransferView, OutcomesAddUpAndSayWhatToDo) {
 TEST(TransferSummary, HoldsTheBestPointCountsAndSeconds) {
   const TransferResult result = sample_transfer();
   Json json;
-  summary_of(
-      transfer_report(result, sample_trajectory(), sample_validity(), sample_transfer_origin()),
-      json);
+  summary_of(transfer_report(with_validity(result), sample_trajectory(), sample_transfer_origin()),
+             json);
   EXPECT_EQ(json["study"], "transfer");
   EXPECT_EQ(json["frame"], "RTN");
   EXPECT_EQ(json["derivatives"], "rotating");
@@ -192,7 +191,7 @@ TEST(TransferSummary, SaysWhetherTheLeastIsAtAnEndOrBetweenTheListedTimes) {
   TransferResult result = sample_transfer();
   const auto summary = [&] {
     Json json;
-    return summary_of(transfer_report(result, {}, {}, sample_transfer_origin()), json);
+    return summary_of(transfer_report(result, {}, sample_transfer_origin()), json);
   };
   // The best is the last of the six, and nothing was searched between them.
   EXPECT_EQ(summary()["is_first_or_last_time"], true);
@@ -219,7 +218,7 @@ TEST(TransferSummary, SaysWhetherTheLeastIsAtAnEndOrBetweenTheListedTimes) {
 TEST(TransferSummary, WithoutAnAnswerTheBestIsNullAndTheFailureIsNamed) {
   TransferResult result = sample_transfer();
   result.points.assign(2, result.points[3]);
-  const StudyReport report = transfer_report(result, {}, {}, sample_transfer_origin());
+  const StudyReport report = transfer_report(result, {}, sample_transfer_origin());
   Json json;
   summary_of(report, json);
   EXPECT_TRUE(json["best"].is_null());
@@ -260,18 +259,18 @@ TEST(TransferView, SaysWhatToTryForWhatIsLeftOut) {
 TEST(TransferSummary, StrictSaysHowManyAreAtFault) {
   TransferResult result = sample_transfer();
   result.scene.transfer->strict = true;
-  const StudyReport report = transfer_report(result, {}, {}, sample_transfer_origin());
+  const StudyReport report = transfer_report(result, {}, sample_transfer_origin());
   EXPECT_EQ(report.exit_code, 1);
   EXPECT_EQ(report.failure,
             "strict: of 5 transfer times away from singularities 1 have no answer, 0 miss by more "
             "than 1 m, and the refinement of 1 failed");
   result.scene.transfer->strict = false;
-  EXPECT_EQ(transfer_report(result, {}, {}, sample_transfer_origin()).failure, "");
+  EXPECT_EQ(transfer_report(result, {}, sample_transfer_origin()).failure, "");
 }
 
 TEST(TransferTable, HoldsBestWorstAndSingularTimes) {
   const TransferResult result = sample_transfer();
-  const std::string table = transfer_report(result, {}, {}, sample_transfer_origin()).table;
+  const std::string table = transfer_report(result, {}, sample_transfer_origin()).table;
   EXPECT_NE(table.find(transfer_verdict(result)), std::string::npos) << table;
   EXPECT_NE(
       table.find(
@@ -294,9 +293,7 @@ TEST(TransferTable, ImpulsesHaveDigitsOfAnySize) {
   ImpulsePlan& plan = *result.optimal->plan;
   plan.duration = 6;
   plan.impulses = {{0, {0.3, -1e-9, 0}}, {6, {0, 1.25e-7, -2.5e-10}}};
-  const auto table = [&] {
-    return transfer_report(result, {}, {}, sample_transfer_origin()).table;
-  };
+  const auto table = [&] { return transfer_report(result, {}, sample_transfer_origin()).table; };
   EXPECT_NE(table().find(" 0.300000 "), std::string::npos) << table();
   EXPECT_EQ(table().find("-0.000000"), std::string::npos) << table();
   EXPECT_NE(table().find("1.2500e-07  -2.5000e-10"), std::string::npos) << table();
@@ -318,15 +315,13 @@ TEST(TransferTable, TellsTheResidualFromWhatAnUlpMakesOfIt) {
   TransferResult result = sample_transfer();
   const std::string line =
       "  Hamilton-Jacobi  residual 3.3e-15 at worst, at the transfers' own ends";
-  const auto table = [&] {
-    return transfer_report(result, {}, {}, sample_transfer_origin()).details;
-  };
+  const auto table = [&] { return transfer_report(result, {}, sample_transfer_origin()).details; };
   EXPECT_NE(table().find(line + " (an ulp in the coefficients makes 1.0e-15)\n"), std::string::npos)
       << table();
   result.hamilton_jacobi_floor.reset();
   EXPECT_NE(table().find(line + "\n"), std::string::npos) << table();
   Json json;
-  summary_of(transfer_report(result, {}, {}, sample_transfer_origin()), json);
+  summary_of(transfer_report(result, {}, sample_transfer_origin()), json);
   EXPECT_TRUE(json["hamilton_jacobi_floor"].is_null());
 }
 

@@ -122,6 +122,11 @@ inline ValidityResult sample_validity() {
   return result;
 }
 
+inline TransferResult with_validity(TransferResult result) {
+  result.validity = sample_validity();
+  return result;
+}
+
 inline AssignmentResult sample_assignment() {
   AssignmentResult result;
   result.scene = sample_relative_scene();

@@ -14,13 +14,11 @@
 namespace hamjet::io {
 
 /// The files of `hamjet transfer`: the CSV files, `report.html`, `summary.json`. `trajectory` is
-/// that of the best point, if there is one; `validity` is there if the scene asks for it.
+/// that of the best point, if there is one.
 StudyReport transfer_report(const TransferResult& result,
                             const std::optional<RelativeTrajectory>& trajectory,
-                            const std::optional<ValidityResult>& validity,
                             const ReportOrigin& origin);
-/// transfer_report with the best point's trajectory, which is flown here, and the validity that the
-/// result has.
+/// transfer_report with the best point's trajectory, which is flown here.
 StudyReport flown_transfer_report(const TransferResult& result, const ReportOrigin& origin);
 /// The files of `hamjet validity`: `validity.csv`, `report.html`, `summary.json`.
 StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin);

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "../../app/refusal.hpp"
-#include "../../app/scene_refusal.hpp"
 #include "../../app/stored_chief.hpp"
 #include "../../report/study_description.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
+#include "../../text/scene_refusal.hpp"
 #include "eval_source.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -31,10 +31,11 @@ std::vector<double> deputy_row(const EvalOptions& options, const io::StoredJet& 
   }
   io::require_table(io::study_of_table("deputy"), scene, file);
   if (!is_about_chief(stored, scene)) {
-    refuse_scene(file, "nominal",
-                 fmt::format("another orbit than that of the jet {}, must be the scene that it was "
-                             "made from",
-                             io::printable(stored.label)));
+    io::refuse_scene(
+        file, "nominal",
+        fmt::format("another orbit than that of the jet {}, must be the scene that it was "
+                    "made from",
+                    io::printable(stored.label)));
   }
   const ChiefFrame frame(scene.nominal, {scene.units.length_km * 1000, scene.units.time_s},
                          scene.deputy->frame);
@@ -106,7 +107,7 @@ std::vector<double> DeviationRows::variables(const EvalCoordinates& coordinates,
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::usage) throw;
     if (options_.deviation) refuse(fmt::format("--deviation: {}", error.what()));
-    if (options_.deputy) refuse_scene(*options_.deputy, "deputy", error.what());
+    if (options_.deputy) io::refuse_scene(*options_.deputy, "deputy", error.what());
     throw Error(ErrorKind::input_output,
                 fmt::format("{}:{}: {}", input_->name(), part.line(row), error.what()));
   }

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "../../app/refusal.hpp"
-#include "../../app/scene_refusal.hpp"
 #include "../../scene/scene_name.hpp"
+#include "../../text/scene_refusal.hpp"
 #include "../noted_jet.hpp"
 #include "hamjet/error.hpp"
 
@@ -25,7 +25,8 @@ EvalSource integrated_scene(const EvalOptions& options) {
   const RunOptions named = scene_named(options, options.directory);
   const Scene scene = read_unsplit_scene(named, "hamjet eval");
   note_escape(named, scene);
-  EvaluatedScene evaluated = study_of(*named.scene_file, [&] { return evaluated_scene(scene); });
+  EvaluatedScene evaluated =
+      io::naming_file(*named.scene_file, [&] { return evaluated_scene(scene); });
   io::StoredJet chief = evaluated.chief;
   return {std::move(chief), std::move(evaluated)};
 }

@@ -83,7 +83,7 @@ class Study(_Described):
     table: Table  #: the columns of the study's CSV file, by name, an entry for each of its rows
     _study: Any
 
-    def __init__(self, study: _hamjet._TableStudy) -> None:
+    def __init__(self, study: _hamjet._Study) -> None:
         columns, rows = study.columns(), study.rows()
         own, *further = columns
         vars(self).update(columns[own], table=types.MappingProxyType(rows[own]), _study=study)

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "../../app/jet_conversion.hpp"
-#include "../../app/scene_refusal.hpp"
 #include "../../store/text_file.hpp"
 #include "../../studies/arcs.hpp"
 #include "../../text/scene_message.hpp"
+#include "../../text/scene_refusal.hpp"
 #include "../arrays.hpp"
 #include "../bindings.hpp"
 #include "../given_scene.hpp"
@@ -57,7 +57,7 @@ py::array_t<double> PolynomialsStudy::reach(double tolerance_m, int samples,
   measured.validity->samples = samples;
   const ValidityResult result =
       interruptibly(progress, [measured, file = file_](const ProgressCallback& report) {
-        return cli::study_of(file, [&] { return study_validity(measured, report); });
+        return io::naming_file(file, [&] { return study_validity(measured, report); });
       });
   std::vector<double> found;
   for (const ValidityEntry& entry : result.points.back().entries) {
@@ -119,7 +119,7 @@ PolynomialsStudy load_polynomials(const std::filesystem::path& path,
 PolynomialsStudy integrate(const GivenScene& given, const py::object& progress) {
   const Scene scene = given.flow_jet();
   return interruptibly(progress, [scene, file = given.file](const ProgressCallback&) {
-    return cli::study_of(file, [&] { return PolynomialsStudy(scene, file); });
+    return io::naming_file(file, [&] { return PolynomialsStudy(scene, file); });
   });
 }
 

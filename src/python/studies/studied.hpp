@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "../../app/report_origin.hpp"
-#include "../../app/scene_refusal.hpp"
 #include "../../report/study_description.hpp"
+#include "../../text/scene_refusal.hpp"
 #include "../arrays.hpp"
 #include "../given_scene.hpp"
 #include "../interruptible.hpp"
@@ -70,7 +70,7 @@ Studied<Result> studied(const GivenScene& given, const py::object& progress, std
   return interruptibly(progress, [scene = scene_of(given, table), file = given.file, study,
                                   make_report](const ProgressCallback& report) {
     return Studied<Result>(
-        cli::study_of(file, [&] { return study(scene, report); }),
+        io::naming_file(file, [&] { return study(scene, report); }),
         [make_report](const Result& result) { return make_report(result, origin()); });
   });
 }
@@ -101,23 +101,6 @@ py::class_<Studied<Result>> bind_study(py::module_& module, const char* name,
            [tables](const Studied<Result>& s) { return columns_of_tables(tables(*s.result())); })
       .def("rows",
            [tables](const Studied<Result>& s) { return rows_of_tables(tables(*s.result())); })
-      .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
-        write_set(s.report(), directory);
-      });
-}
-
-/// Binds what the studies have in common; `csv` and `arrays` make the table's text and the arrays
-/// of a result.
-template <class Result>
-py::class_<Studied<Result>> bind_study(py::module_& module, const char* name,
-                                       std::string (*csv)(const Result&),
-                                       py::dict (*arrays)(const Result&)) {
-  return py::class_<Studied<Result>>(module, name)
-      .def_property_readonly("summary",
-                             [](const Studied<Result>& s) { return s.report().summary(); })
-      .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
-      .def_property_readonly("csv", [csv](const Studied<Result>& s) { return csv(*s.result()); })
-      .def("arrays", [arrays](const Studied<Result>& s) { return arrays(*s.result()); })
       .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
         write_set(s.report(), directory);
       });

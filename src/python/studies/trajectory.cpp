@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "../../app/scene_refusal.hpp"
 #include "../../studies/scene_trajectory.hpp"
+#include "../../text/scene_refusal.hpp"
 #include "../arrays.hpp"
 #include "../bindings.hpp"
 #include "../given_scene.hpp"
@@ -60,7 +60,7 @@ TrajectoryStudy follow(const GivenScene& given, const std::string& run,
                        const py::object& progress) {
   const Scene scene = given.flow_jet(io::SceneUnits::told);
   return interruptibly(progress, [scene, file = given.file, run](const ProgressCallback& report) {
-    return TrajectoryStudy(cli::study_of(
+    return TrajectoryStudy(io::naming_file(
         file, [&] { return std::make_shared<const SceneTrajectory>(scene, run, report); }));
   });
 }

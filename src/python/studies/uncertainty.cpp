@@ -28,7 +28,7 @@ py::dict collision_of(const GivenScene& given, const py::object& progress) {
   return columns_of_tables(interruptibly(
       progress,
       [scene = scene_of(given, "uncertainty"), file = given.file](const ProgressCallback& report) {
-        return cli::study_of(file, [&] {
+        return io::naming_file(file, [&] {
           return io::collision_tables(study_collision(scene, cli::usable_processors(), report));
         });
       }));

@@ -24,8 +24,5 @@ nlohmann::ordered_json transfer_point_json(const TransferPoint& point, const Sce
 
 /// `summary.json` of a transfer study, without its end.
 nlohmann::ordered_json transfer_summary_json(const TransferResult& result);
-/// The whole `summary.json` of a transfer study.
-nlohmann::ordered_json transfer_report_json(const TransferResult& result,
-                                            const std::optional<ValidityResult>& validity);
 
 }  // namespace hamjet::io

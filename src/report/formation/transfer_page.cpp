@@ -90,8 +90,7 @@ std::string impulse_sections(const TransferResult& result, ChartDrawer& drawer) 
 
 std::string transfer_page(const TransferResult& result,
                           const std::optional<RelativeTrajectory>& trajectory,
-                          const std::optional<ValidityResult>& validity, const ReportOrigin& origin,
-                          ChartDrawer& drawer) {
+                          const ReportOrigin& origin, ChartDrawer& drawer) {
   ReportPage page;
   page.title = result.scene.title + ": velocity changes of transfers";
   page.verdict = transfer_verdict(result);
@@ -105,9 +104,9 @@ std::string transfer_page(const TransferResult& result,
                   coasting_section_html(result) + revolutions_section_html(result) +
                   fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
                   fitted_section(condition_chart(result), drawer) + singular_table_html(result);
-  if (validity) {
-    page.sections += fitted_section(validity_time_chart(*validity), drawer) +
-                     validity_sections_html(*validity, drawer);
+  if (result.validity) {
+    page.sections += fitted_section(validity_time_chart(*result.validity), drawer) +
+                     validity_sections_html(*result.validity, drawer);
   }
   page.sections += "<section>\n<h2>All transfer times</h2>\n" + transfers_table_html(result) +
                    "</section>\n<section>\n<h2>What it took</h2>\n" + seconds_table_html(result) +

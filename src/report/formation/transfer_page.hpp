@@ -13,8 +13,7 @@ namespace hamjet::io {
 /// `report.html` of a transfer study.
 std::string transfer_page(const TransferResult& result,
                           const std::optional<RelativeTrajectory>& trajectory,
-                          const std::optional<ValidityResult>& validity, const ReportOrigin& origin,
-                          ChartDrawer& drawer);
+                          const ReportOrigin& origin, ChartDrawer& drawer);
 
 /// `report.html` of a validity study.
 std::string validity_page(const ValidityResult& result, const ReportOrigin& origin,

@@ -104,16 +104,8 @@ std::string terminal_details(const TransferResult& result) {
 
 }  // namespace
 
-nlohmann::ordered_json transfer_report_json(const TransferResult& result,
-                                            const std::optional<ValidityResult>& validity) {
-  nlohmann::ordered_json summary = transfer_summary_json(result);
-  summary["validity"] = validity ? validity_json(*validity) : nlohmann::ordered_json(nullptr);
-  return summary;
-}
-
 StudyReport transfer_report(const TransferResult& result,
                             const std::optional<RelativeTrajectory>& trajectory,
-                            const std::optional<ValidityResult>& validity,
                             const ReportOrigin& origin) {
   StudyReport report;
   report.files = {{"transfers.csv", table_csv(transfers_table(result))},
@@ -123,7 +115,8 @@ StudyReport transfer_report(const TransferResult& result,
     report.files.push_back({"impulses.csv", table_csv(optimal_impulses_table(result))});
   if (result.waypoints)
     report.files.push_back({"waypoints.csv", table_csv(waypoint_impulses_table(result))});
-  if (validity) report.files.push_back({"validity.csv", table_csv(validity_table(*validity))});
+  if (result.validity)
+    report.files.push_back({"validity.csv", table_csv(validity_table(*result.validity))});
   const OutputSettings& output = result.scene.output;
   const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);
   if (has_messages && trajectory) {
@@ -132,19 +125,23 @@ StudyReport transfer_report(const TransferResult& result,
     }
   }
   ChartDrawer drawer(origin.gnuplot);
-  report.files.push_back(
-      {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
+  report.files.push_back({"report.html", transfer_page(result, trajectory, origin, drawer)});
   report.drawing_problem = drawer.problem();
   if (trajectory && !report.drawing_problem) {
     add_figure(report, {rendezvous_chart(*trajectory)}, origin.gnuplot);
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
-  report.files.push_back(
-      {"summary.json", json_text(transfer_report_json(result, validity)) + "\n"});
+  nlohmann::ordered_json summary = transfer_summary_json(result);
+  summary["validity"] =
+      result.validity ? validity_json(*result.validity) : nlohmann::ordered_json(nullptr);
+  summary["exit_code"] = report.exit_code;
+  report.files.push_back({"summary.json", json_text(summary) + "\n"});
   report.table = terminal_table(result);
   report.details = terminal_details(result);
-  if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
+  if (result.validity) {
+    report.table += "  validity         " + validity_verdict(*result.validity) + "\n";
+  }
   add_checks(report, result.checks);
   return report;
 }
@@ -152,7 +149,7 @@ StudyReport transfer_report(const TransferResult& result,
 StudyReport flown_transfer_report(const TransferResult& result, const ReportOrigin& origin) {
   std::optional<RelativeTrajectory> trajectory;
   if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
-  return transfer_report(result, trajectory, result.validity, origin);
+  return transfer_report(result, trajectory, origin);
 }
 
 }  // namespace hamjet::io

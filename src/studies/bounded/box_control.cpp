@@ -95,12 +95,9 @@ class Keeper {
         progress_(progress),
         flow_(make_system(scene)),
         company_(scene, scene.nominal, start_of(member), member_of(member)),
-        problem_(make_problem(scene)) {
+        problem_(make_problem(scene)),
+        integrator_(scene_gauss_integrator(scene, 1e-12)) {
     problem_.symmetry = FlowSymmetry::none;
-    const GaussSettings gauss = scene_gauss(scene, 1e-12);
-    integrator_.stages = gauss.stages;
-    integrator_.tolerance = gauss.tolerance;
-    integrator_.compensated_summation = gauss.compensated_summation;
   }
 
   BoxControl run() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "../descriptions/method_description.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -22,13 +23,14 @@ const IntegratorSettings& gauss_of(const Scene& scene) {
 
 }  // namespace
 
+IntegratorSettings scene_gauss_integrator(const Scene& scene, double most_tolerance) {
+  IntegratorSettings integrator = gauss_of(scene);
+  integrator.tolerance = std::min(*integrator.tolerance, most_tolerance);
+  return integrator;
+}
+
 GaussSettings scene_gauss(const Scene& scene, double most_tolerance) {
-  const IntegratorSettings& integrator = gauss_of(scene);
-  GaussSettings gauss;
-  gauss.stages = integrator.stages;
-  gauss.tolerance = std::min(*integrator.tolerance, most_tolerance);
-  gauss.compensated_summation = integrator.compensated_summation;
-  return gauss;
+  return gauss_settings(scene_gauss_integrator(scene, most_tolerance));
 }
 
 const std::string& scene_gauss_label(const Scene& scene) { return gauss_of(scene).label; }

@@ -9,6 +9,8 @@ namespace hamjet {
 /// among the scene's integrators. A search for a root needs
 /// flights that are right to `most_tolerance`; a larger tolerance is replaced by it. Throws
 /// Error(scene) if the scene names integrators and none is such a method.
+IntegratorSettings scene_gauss_integrator(const Scene& scene, double most_tolerance);
+/// The same as integrate_gauss takes it.
 GaussSettings scene_gauss(const Scene& scene, double most_tolerance);
 
 /// The label of that integrator.

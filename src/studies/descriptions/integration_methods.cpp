@@ -31,15 +31,6 @@ int lanes_for(int stages) {
   return lanes;
 }
 
-GaussSettings gauss_settings(const Settings& settings) {
-  GaussSettings gauss;
-  gauss.stages = settings.stages;
-  gauss.step = settings.step_canonical;
-  gauss.tolerance = settings.tolerance;
-  gauss.compensated_summation = settings.compensated_summation;
-  return gauss;
-}
-
 MethodDescription gauss() {
   return {
       .method = IntegrationMethod::gauss,
@@ -276,6 +267,15 @@ MethodDescription cvode_bdf() {
 }
 
 }  // namespace
+
+GaussSettings gauss_settings(const IntegratorSettings& settings) {
+  GaussSettings gauss;
+  gauss.stages = settings.stages;
+  gauss.step = settings.step_canonical;
+  gauss.tolerance = settings.tolerance;
+  gauss.compensated_summation = settings.compensated_summation;
+  return gauss;
+}
 
 const std::vector<MethodDescription>& all_methods() {
   static const std::vector<MethodDescription> methods = {

@@ -123,6 +123,9 @@ struct MethodDescription {
   }
 };
 
+/// The settings of a Gauss method as integrate_gauss takes them.
+GaussSettings gauss_settings(const IntegratorSettings& settings);
+
 /// All methods, in the order of the enumeration.
 const std::vector<MethodDescription>& all_methods();
 

@@ -13,9 +13,9 @@
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
 #include "flown_deputies.hpp"
-#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "reach_limit.hpp"
+#include "slice_maxima.hpp"
 
 namespace hamjet {
 namespace {
@@ -82,96 +82,18 @@ class ValidityStudy {
     samples_.push_back(-energy);
   }
 
-  /// The contributions of the polynomials' degrees to the final position, to first order in the
-  /// coordinates at both ends: three series, and the variables of a sample.
-  void linearise_ends(const DeputyFlow& flow) {
-    const Matrix<double> exit = flow.exit_derivative();
-    positions_.clear();
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      Series<double> position(flow.polynomials()[0].space_pointer());
-      for (std::size_t c = 0; c < flow.polynomials().size(); ++c) {
-        position += exit(i, static_cast<Eigen::Index>(c)) * flow.polynomials()[c];
-      }
-      positions_.push_back(std::move(position));
-    }
-    variables_ = flow.entry_derivative() * axes_;
-    values_.emplace(flow.polynomials()[0].space_pointer());
-  }
-
-  void set_point(const Vector6& coordinates) {
-    const Matrix<double> point = variables_ * coordinates;
-    values_->set_point({point.data(), static_cast<std::size_t>(point.size())});
-  }
-
-  /// Size of the contribution of one degree to the position at a sample.
-  double slice_size(const Vector6& coordinates, int degree) {
-    set_point(coordinates);
-    return std::hypot(values_->slice(positions_[0], degree), values_->slice(positions_[1], degree),
-                      values_->slice(positions_[2], degree));
-  }
-
-  /// Ascent from a sample to a deviation at which the contribution of one degree is largest: the
-  /// next point is the direction of the gradient, for position and velocity separately. Random
-  /// samples alone would reach only half of the largest value.
-  Vector6 worst_from(Vector6 point, int degree) {
-    constexpr int most_iterations = 30;
-    double size = slice_size(point, degree);
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      set_point(point);
-      Matrix<double> by_variable = Matrix<double>::Zero(variables_.rows(), 1);
-      for (const Series<double>& position : positions_) {
-        const double value = values_->slice(position, degree);
-        for (Eigen::Index v = 0; v < variables_.rows(); ++v) {
-          const auto variable = static_cast<std::size_t>(v);
-          by_variable(v, 0) += value * (values_->derivative(position, variable, degree) -
-                                        values_->derivative(position, variable, degree - 1));
-        }
-      }
-      const Vector6 gradient = variables_.transpose() * by_variable;
-      Vector6 next = point;
-      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-        const double length = gradient.segment<3>(first).norm();
-        if (length > 0) next.segment<3>(first) = gradient.segment<3>(first) / length;
-      }
-      const double found = slice_size(next, degree);
-      if (!(found > size * (1 + 1e-6))) break;
-      size = found;
-      point = next;
-    }
-    return point;
-  }
-
-  /// The distinct deviations at which the contribution of one degree has a local maximum, as far as
-  /// ascents from the samples find them, the largest first; then the samples. All of the largest
-  /// samples may lie near a single maximum, while the flown error is larger at another one.
-  std::vector<Vector6> samples_with_worst(int degree) {
-    constexpr double same =
-        0.1;  // largest distance between the results of two ascents to one maximum
-    std::vector<std::pair<double, Vector6>> maxima;
-    for (const Vector6& sample : samples_) {
-      const Vector6 found = worst_from(sample, degree);
-      const bool is_known = std::any_of(maxima.begin(), maxima.end(), [&](const auto& maximum) {
-        return (maximum.second - found).norm() < same;
-      });
-      if (!is_known) maxima.emplace_back(slice_size(found, degree), found);
-    }
-    std::sort(maxima.begin(), maxima.end(),
-              [](const auto& a, const auto& b) { return a.first > b.first; });
-    // The worst deviations come first, because a deputy that misses by far ends the trial.
-    std::vector<Vector6> samples;
-    for (const auto& [size, deviation] : maxima) samples.push_back(deviation);
-    samples.insert(samples.end(), samples_.begin(), samples_.end());
-    return samples;
-  }
-
   void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow) {
     ValidityPoint point;
     point.time = time_;
-    linearise_ends(flow);
+    SliceMaxima slices(flow, axes_);
+    std::vector<std::vector<Vector6>> worst_of_degrees(static_cast<std::size_t>(scene_.order) + 1);
+    for (int d = 1; d <= scene_.order; ++d) {
+      worst_of_degrees[static_cast<std::size_t>(d)] = slices.maxima_and(samples_, d);
+    }
     const double rounding = rounding_of_flights(problem_, time_);
     result_.flight_floor_m = rounding * metres_;
     const LimitCoordinates names = limit_coordinates(propagation, flow, settings_.frame);
-    const std::vector<double> sizes = slice_sizes();
+    const std::vector<double> sizes = slice_sizes(slices, worst_of_degrees);
     double share = 0;  // fraction of the time's orders that are done
     FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
       ++result_.flights;
@@ -191,7 +113,8 @@ class ValidityStudy {
       const Stopwatch watch(result_.proof_seconds);
       // At first the worst deviations for an order's error are taken to be those of the next
       // degree, or of the last degree known.
-      flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
+      flown_samples_ =
+          worst_of_degrees[static_cast<std::size_t>(std::min(order + 1, scene_.order))];
       prove(deputies, predicted, entry);
       constexpr double clear = 30;  // multiple of the rounding that differences of misses need
       if (!entry.is_at_limit && !entry.is_at_wall &&
@@ -205,12 +128,12 @@ class ValidityStudy {
   }
 
   /// The largest size of each degree's contribution to the position; degree N + 1 is extrapolated.
-  std::vector<double> slice_sizes() {
-    std::vector<double> sizes(static_cast<std::size_t>(scene_.order) + 2, 0);
-    for (int d = 1; d <= scene_.order; ++d) {
-      for (const Vector6& sample : samples_with_worst(d)) {
-        double& size = sizes[static_cast<std::size_t>(d)];
-        size = std::max(size, slice_size(sample, d));
+  std::vector<double> slice_sizes(SliceMaxima& slices,
+                                  const std::vector<std::vector<Vector6>>& worst_of_degrees) const {
+    std::vector<double> sizes(worst_of_degrees.size() + 1, 0);
+    for (std::size_t d = 1; d < worst_of_degrees.size(); ++d) {
+      for (const Vector6& sample : worst_of_degrees[d]) {
+        sizes[d] = std::max(sizes[d], slices.size(sample, static_cast<int>(d)));
       }
     }
     const std::size_t last = sizes.size() - 2;
@@ -329,15 +252,12 @@ class ValidityStudy {
   const ProgressCallback& progress_;
   ComputedProblem problem_;
   double metres_;
-  double distance_;            ///< distance of the chief at the start, in canonical units
-  double largest_separation_;  ///< in canonical units
-  double tolerance_;           ///< in canonical units
-  Matrix6 axes_;               ///< see make_samples
-  std::vector<Series<double>> positions_;  ///< see linearise_ends
-  Matrix<double> variables_;
-  std::optional<MonomialValues> values_;
-  std::vector<Vector6> samples_;              ///< deviations of separation 1
-  std::vector<Vector6> flown_samples_;        ///< samples with which one order is proved
+  double distance_;                     ///< distance of the chief at the start, in canonical units
+  double largest_separation_;           ///< in canonical units
+  double tolerance_;                    ///< in canonical units
+  Matrix6 axes_;                        ///< see make_samples
+  std::vector<Vector6> samples_;        ///< deviations of separation 1
+  std::vector<Vector6> flown_samples_;  ///< samples with which one order is proved
   std::vector<FlownDeputies::Worst> misses_;  ///< see largest_miss
   FlownDeputies::Worst worst_;                ///< at the separation that is being proved
   double time_ = 0;

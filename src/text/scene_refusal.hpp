@@ -4,23 +4,23 @@
 
 #include "hamjet/error.hpp"
 
-namespace hamjet::cli {
+namespace hamjet::io {
 
 /// Throws Error(scene) as `file: key: problem`.
 [[noreturn]] void refuse_scene(const std::string& file, const std::string& key,
                                const std::string& problem);
 
-/// An Error(scene) that comes from a study gets the file's name before it.
+/// An Error(scene) that comes from some work gets the file's name before it.
 [[noreturn]] void rethrow_with_file(const Error& error, const std::string& file);
 
-/// Runs a study; its Error(scene) gets the file's name before it.
-template <class Study>
-auto study_of(const std::string& file, const Study& study) {
+/// Does some work of a scene; its Error(scene) gets the file's name before it.
+template <class Work>
+auto naming_file(const std::string& file, const Work& work) {
   try {
-    return study();
+    return work();
   } catch (const Error& error) {
     rethrow_with_file(error, file);
   }
 }
 
-}  // namespace hamjet::cli
+}  // namespace hamjet::io
