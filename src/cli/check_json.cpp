@@ -8,6 +8,7 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../report/formation/drift_view.hpp"
 #include "../report/propagation/orbit_summary.hpp"
+#include "../report/study_description.hpp"
 #include "../scene/system_json.hpp"
 #include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
@@ -88,6 +89,10 @@ Json facts(const RunOptions& options, const Scene& scene) {
         {"position_m", array(scene.deputy->start.position_m)},
         {"velocity_m_s", array(scene.deputy->start.velocity_m_s)}};
     io::add_drift(json["deputy"], deputy_drift(scene), scene.deputy->start);
+  }
+  json["commands"] = {"run"};
+  for (const io::StudyDescription* study : io::studies_of(scene)) {
+    json["commands"].push_back(study->command);
   }
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);

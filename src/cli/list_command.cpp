@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "../report/declared_tables.hpp"
 #include "../scene/tables/key_reference.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
@@ -61,7 +62,8 @@ const std::vector<Topic>& topics() {
       {"systems", "# Systems\n\n", systems},
       {"integrators", "# Integrators\n\n", integrators},
       {"kinds", "# Kinds of generating functions\n\n", kinds},
-      {"keys", "", [] { return io::key_reference(io::sweep_study_table()); }, true}};
+      {"keys", "", [] { return io::key_reference(io::sweep_study_table()); }, true},
+      {"columns", "", io::columns_page, true}};
   return all;
 }
 
@@ -70,11 +72,12 @@ const std::vector<Topic>& topics() {
 CLI::App* add_list_command(CLI::App& app, std::optional<std::string>& what) {
   std::vector<std::string> names;
   for (const Topic& topic : topics()) names.emplace_back(topic.name);
-  CLI::App* command = app.add_subcommand("list", "list systems, integrators, kinds and keys");
+  CLI::App* command =
+      app.add_subcommand("list", "list systems, integrators, kinds, keys and columns");
   command
       ->add_option("what", what,
-                   "systems, integrators, kinds, or the keys of a scene as a page in Markdown "
-                   "(default: all, one after the other)")
+                   "systems, integrators, kinds, or, as pages in Markdown, the keys of a scene and "
+                   "the columns of results (default: all, one after the other)")
       ->check(CLI::IsMember(names));
   return command;
 }

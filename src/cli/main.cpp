@@ -14,6 +14,7 @@
 
 #include "../app/arithmetic.hpp"
 #include "../formats/output_formats.hpp"
+#include "../report/study_description.hpp"
 #include "../text/shell_text.hpp"
 #include "compare_command.hpp"
 #include "completion/completion.hpp"
@@ -32,10 +33,11 @@
 #include "process/standard_streams.hpp"
 #include "run_command.hpp"
 #include "stability_command.hpp"
+#include "study_command.hpp"
 #include "sweep_command.hpp"
 #include "transfer_command.hpp"
-#include "uncertainty_command.hpp"
 #include "usage.hpp"
+#include "validity_command.hpp"
 
 namespace {
 
@@ -51,14 +53,7 @@ constexpr const char* examples = R"(Examples:
   hamjet run scene.toml --set jet.order=6 --set integrator.gauss8.tolerance=1e-13
                                             the same with two keys changed
   hamjet compare scene.toml                 error against run time of many integrators; a report
-  hamjet motion scene.toml                  where the second satellite goes; a report
-  hamjet transfer scene.toml                velocity changes between relative positions; a report
-  hamjet validity scene.toml                how far from the chief the polynomials are right
-  hamjet uncertainty scene.toml             how a covariance grows, to every order; a report
-  hamjet assign scene.toml                  deputies to slots at the least total velocity change
-  hamjet poincare scene.toml                the frozen orbit, and what turns about it
-  hamjet bounded scene.toml                 deputies that stay for months without fuel; a report
-  hamjet eval out/scene --deviation 100,0,0,0,0.1,0
+{}  hamjet eval out/scene --deviation 100,0,0,0,0.1,0
                                             a relative state (RTN: m, m/s) through the stored jet
   hamjet convert out/scene scene.h5         a stored jet as HDF5, DACE text or CSV
   hamjet stability                          the suite of stiff and extreme cases; a report
@@ -137,7 +132,12 @@ CLI::App* add_sweep_command(CLI::App& app, hamjet::cli::RunOptions& run,
 }
 
 int dispatch(int argc, char** argv) {
-  CLI::App app(examples, "hamjet");
+  std::string of_studies;
+  for (const std::string_view command : hamjet::io::study_commands()) {
+    of_studies += fmt::format("  {:<42}{}\n", fmt::format("hamjet {} scene.toml", command),
+                              hamjet::io::first_study_of(command).example);
+  }
+  CLI::App app(fmt::format(examples, of_studies), "hamjet");
   app.set_version_flag("--version", std::string("hamjet ") + hamjet::version);
   app.require_subcommand(1);
   app.formatter(std::make_shared<hamjet::cli::HelpFormatter>());
@@ -182,60 +182,36 @@ int dispatch(int argc, char** argv) {
   compare->add_option("--plots", plots, "the report's plots as files too: pdf or png")
       ->check(CLI::IsMember({"pdf", "png"}));
 
-  const auto add_study = [&](const char* name, const char* description, const char* results,
-                             const char* suffix) {
-    CLI::App* study = app.add_subcommand(name, description);
-    add_scene_argument(*study, options);
-    add_run_options(*study, options, results, fmt::format("out/<scene name>{}", suffix));
-    hamjet::cli::add_override_option(*study, options.overrides);
-    return study;
+  const auto add_study = [&](std::string_view command) {
+    const auto& study = hamjet::io::first_study_of(command);
+    CLI::App* subcommand = app.add_subcommand(std::string(command), std::string(study.purpose));
+    add_scene_argument(*subcommand, options);
+    add_run_options(*subcommand, options, std::string(study.files),
+                    "out/<scene name>" + study.suffix());
+    hamjet::cli::add_override_option(*subcommand, options.overrides);
   };
-  const CLI::App* motion = add_study(
-      "motion", "where the deputy goes relative to its chief, and by how much it is wrong",
-      "report.html, motion.csv and summary.json", hamjet::cli::motion_suffix);
-  hamjet::cli::TransferOptions transfers;
-  CLI::App* transfer = add_study(
-      "transfer", "velocity changes from one relative position to another, for every time",
-      "report.html, figure.svg, transfers.csv, further CSV files and summary.json",
-      hamjet::cli::transfer_suffix);
+  for (const std::string_view command : hamjet::io::study_commands()) add_study(command);
+  hamjet::cli::StoredJetChoice stored;
+  CLI::App& transfer = *app.get_subcommand("transfer");
   CLI::Option* jet =
       transfer
-          ->add_option("--jet", transfers.directory,
-                       "directory with the results of `hamjet run`, or a file .h5 of "
-                       "them: take the jet stored there instead of computing; its "
-                       "duration is the transfer time")
+          .add_option("--jet", stored.directory,
+                      "directory with the results of `hamjet run`, or a file .h5 of them: take the "
+                      "jet stored there instead of computing; its duration is the transfer time")
           ->type_name("FILE");
-  transfer->add_option("--run", transfers.run, "whose jet: the label of the integrator")
+  transfer.add_option("--run", stored.run, "whose jet: the label of the integrator")
       ->needs(jet)
       ->type_name("LABEL");
-  CLI::App* validity =
-      add_study("validity", "how far from the chief the polynomials are right, along time",
-                "report.html, validity.csv and summary.json", hamjet::cli::validity_suffix);
-  const CLI::App* uncertainty = add_study(
-      "uncertainty", "how the covariance of the start grows: moments of every order along time",
-      "report.html, moments.csv and summary.json", hamjet::cli::uncertainty_suffix);
-  std::optional<std::string> coordinates;
+  constexpr const char* all_coordinates = "all";
+  std::string coordinates;
   std::vector<std::string> coordinates_names(hamjet::jet_coordinates_names.begin(),
                                              hamjet::jet_coordinates_names.end());
-  coordinates_names.emplace_back(hamjet::cli::all_coordinates);
-  validity
+  coordinates_names.emplace_back(all_coordinates);
+  app.get_subcommand("validity")
       ->add_option("--coordinates", coordinates,
                    "of the polynomials at both ends, in place of jet.coordinates; all: a table and "
-                   "a plot of "
-                   "the reach in each")
+                   "a plot of the reach in each")
       ->check(CLI::IsMember(coordinates_names));
-  const CLI::App* assign = add_study(
-      "assign", "send deputies to slots at the least total velocity change",
-      "assignment.csv, costs.csv, pairs.csv and summary.json", hamjet::cli::assignment_suffix);
-  const CLI::App* poincare = add_study(
-      "poincare",
-      "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
-      "[event] as polynomials",
-      "report.html, poincare.csv (with [event]: event.csv, event-map.csv) and summary.json",
-      hamjet::cli::poincare_suffix);
-  const CLI::App* bounded = add_study(
-      "bounded", "deputies that stay with the chief for long without fuel",
-      "report.html, bounded.csv, box.csv of a box, summary.json", hamjet::cli::bounded_suffix);
 
   std::optional<std::string> suite;
   CLI::App* stability = app.add_subcommand(
@@ -308,16 +284,16 @@ int dispatch(int argc, char** argv) {
     if (plots == "png") comparison.plots = hamjet::io::PlotFormat::png;
     return hamjet::cli::compare(comparison);
   }
-  if (*transfer) return hamjet::cli::transfer(options, transfers);
   if (*stability) return hamjet::cli::stability(options, suite);
   if (*sweep) return hamjet::cli::sweep(options, sweeps);
-  if (*motion) return hamjet::cli::motion(options);
-  if (*validity) return hamjet::cli::validity(options, coordinates);
-  if (*uncertainty) return hamjet::cli::uncertainty(options);
-  if (*assign) return hamjet::cli::assign(options);
-  if (*poincare) return hamjet::cli::poincare(options);
-  if (*bounded) return hamjet::cli::bounded(options);
-  return hamjet::cli::run(options);
+  if (*run || *demo) return hamjet::cli::run(options);
+  if (stored.directory) return hamjet::cli::transfer_by_stored_jet(options, stored);
+  if (coordinates == all_coordinates) return hamjet::cli::validity_in_all_coordinates(options);
+  if (!coordinates.empty()) {
+    options.overrides.push_back(fmt::format("jet.coordinates=\"{}\"", coordinates));
+    options.overrides.emplace_back("jet.end_coordinates=null");
+  }
+  return hamjet::cli::study(options, app.get_subcommands().front()->get_name());
 }
 
 }  // namespace

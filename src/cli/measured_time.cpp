@@ -14,18 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "../app/uncertainty_sections.hpp"
-#include "../studies/bounded/bounded_formation.hpp"
-#include "../studies/bounded/event_study.hpp"
-#include "../studies/formation/deputy_motion.hpp"
-#include "../studies/uncertainty/uncertainty.hpp"
+#include "../app/processors.hpp"
+#include "../report/study_description.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/time_axis.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/studies/assignment.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "hamjet/studies/transfer.hpp"
-#include "hamjet/studies/validity.hpp"
 #include "process/interruption.hpp"
 
 namespace hamjet::cli {
@@ -41,37 +35,20 @@ double seconds_since(Clock::time_point start) {
 }
 
 struct TimedStudy {
-  const char* command;
+  std::string_view command;
   std::function<void(const ProgressCallback&)> run;
 };
 
 /// The commands that a scene has what they need for.
-std::vector<TimedStudy> studies_of(const Scene& scene) {
+std::vector<TimedStudy> timed_studies(const Scene& scene) {
   std::vector<TimedStudy> studies = {
       {"run", [&](const auto& progress) { propagate(scene, progress, 1); }}};
-  if (scene.deputy) {
-    studies.push_back({"motion", [&](const auto& p) { study_deputy_motion(scene, p); }});
-  }
-  if (scene.transfer && !scene.assignment) {
-    studies.push_back({"transfer", [&](const auto& p) { study_transfer(scene, p); }});
-  }
-  if (scene.assignment) {
-    studies.push_back({"assign", [&](const auto& p) { study_assignment(scene, p); }});
-  }
-  if (scene.validity) {
-    studies.push_back({"validity", [&](const auto& p) { study_validity(scene, p); }});
-  }
-  if (scene.uncertainty) {
-    studies.push_back({"uncertainty", [&](const auto& p) {
-                         study_uncertainty(scene, p);
-                         uncertainty_sections(scene, p);
+  for (const io::StudyDescription* study : io::studies_of(scene)) {
+    studies.push_back({study->command, [&scene, study](const auto& progress) {
+                         io::StudyWork work{progress, {}, usable_processors()};
+                         work.origin.gnuplot = "";
+                         study->report(scene, work);
                        }});
-  }
-  if (scene.bounded) {
-    studies.push_back({"bounded", [&](const auto& p) { study_bounded(scene, p); }});
-  }
-  if (scene.event) {
-    studies.push_back({"poincare", [&](const auto& p) { study_event(scene, p); }});
   }
   return studies;
 }
@@ -165,7 +142,7 @@ class StudyProcess {
 
 std::string measured_times(const Scene& scene) {
   std::string text;
-  for (const TimedStudy& study : studies_of(scene)) {
+  for (const TimedStudy& study : timed_studies(scene)) {
     text +=
         fmt::format("{}{} {}", text.empty() ? "" : ", ", study.command, StudyProcess(study).time());
   }

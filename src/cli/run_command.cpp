@@ -13,6 +13,7 @@
 #include "../report/formation/drift_view.hpp"
 #include "../report/paper/paper_reports.hpp"
 #include "../report/propagation/orbit_summary.hpp"
+#include "../report/study_description.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/run_warnings.hpp"
@@ -232,6 +233,11 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         counted(scene.assignment->deputies.size(), "deputy"),
                         counted(scene.assignment->slots.size(), "slot"));
   }
+  std::string commands = "run";
+  for (const io::StudyDescription* study : io::studies_of(scene)) {
+    commands += fmt::format(", {}", study->command);
+  }
+  text += fmt::format("  commands     {}\n", commands);
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");

@@ -6,6 +6,10 @@
 #include <filesystem>
 #include <string>
 
+#include "../app/processors.hpp"
+#include "../app/report_origin.hpp"
+#include "../app/scene_refusal.hpp"
+#include "../report/study_description.hpp"
 #include "../store/result_set.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
@@ -76,6 +80,20 @@ int report_study(const RunOptions& options, const std::string& scene_name,
   if (report.exit_code != 0) print_error(report.failure);
   if (is_kept) note_kept(directory);
   return report.exit_code;
+}
+
+int study(const RunOptions& options, std::string_view command) {
+  const Scene scene = read_scene(options);
+  const io::StudyDescription& described = io::study_of_command(command, scene);
+  io::require_scene_of(described, scene, *options.scene_file);
+  if (described.notes_escape) note_escape(options, scene);
+  return report_study(
+      options, scene.name + described.suffix(), [&](const ProgressCallback& progress) {
+        return study_of(*options.scene_file, [&] {
+          return described.report(scene,
+                                  {progress, report_origin(options.command), usable_processors()});
+        });
+      });
 }
 
 }  // namespace hamjet::cli

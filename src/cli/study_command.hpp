@@ -28,4 +28,8 @@ void note_kept(const std::filesystem::path& directory);
 int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work);
 
+/// The study of this command of the scene that the options name: writes its results and returns the
+/// exit code. Throws Error(scene) if the scene has no table for it.
+int study(const RunOptions& options, std::string_view command);
+
 }  // namespace hamjet::cli

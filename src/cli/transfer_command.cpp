@@ -4,19 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <system_error>
 
 #include "../app/report_origin.hpp"
-#include "../app/required_tables.hpp"
+#include "../app/scene_refusal.hpp"
 #include "../app/stored_chief.hpp"
-#include "../report/bounded/bounded_report.hpp"
-#include "../report/bounded/event_report.hpp"
-#include "../report/bounded/frozen_orbit_report.hpp"
-#include "../report/formation/deputy_motion_report.hpp"
-#include "../studies/bounded/bounded_formation.hpp"
-#include "../studies/bounded/frozen_orbit_study.hpp"
-#include "../studies/formation/deputy_motion.hpp"
+#include "../report/study_description.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -28,18 +21,18 @@
 namespace hamjet::cli {
 namespace {
 
-[[noreturn]] void refuse_jet(const TransferOptions& transfers, const io::StoredJet& stored,
+[[noreturn]] void refuse_jet(const StoredJetChoice& jet, const io::StoredJet& stored,
                              const std::string& problem) {
-  throw Error(ErrorKind::scene, fmt::format("{}: the jet of {} {}",
-                                            io::printable(*transfers.directory, std::string::npos),
-                                            stored.label, problem));
+  throw Error(ErrorKind::scene,
+              fmt::format("{}: the jet of {} {}", io::printable(*jet.directory, std::string::npos),
+                          stored.label, problem));
 }
 
-io::StoredJet read_stored_jet(const TransferOptions& transfers) {
-  io::StoredJet stored = read_noted_jet(*transfers.directory, transfers.run);
-  io::require_positions_and_momenta(stored, io::printable(*transfers.directory, std::string::npos));
+io::StoredJet read_stored_jet(const StoredJetChoice& jet) {
+  io::StoredJet stored = read_noted_jet(*jet.directory, jet.run);
+  io::require_positions_and_momenta(stored, io::printable(*jet.directory, std::string::npos));
   if (stored.duration == 0) {
-    refuse_jet(transfers, stored, "has the duration 0, in which nothing can be transferred");
+    refuse_jet(jet, stored, "has the duration 0, in which nothing can be transferred");
   }
   return stored;
 }
@@ -61,13 +54,13 @@ Scene read_scene_of(const io::StoredJet& stored, const RunOptions& options) {
 }
 
 /// The stored jet; throws unless it is of the scene's chief and expanded in all six variables.
-EarlierJet earlier_jet(const TransferOptions& transfers, const io::StoredJet& stored,
+EarlierJet earlier_jet(const StoredJetChoice& jet, const io::StoredJet& stored,
                        const Scene& scene) {
   if (!is_about_chief(stored, scene))
-    refuse_jet(transfers, stored, "is about another orbit than the scene's");
+    refuse_jet(jet, stored, "is about another orbit than the scene's");
   if (stored.components.size() != scene.nominal.size() ||
       stored.variables.size() != scene.nominal.size()) {
-    refuse_jet(transfers, stored, "is not expanded in all six variables, which transfers need");
+    refuse_jet(jet, stored, "is not expanded in all six variables, which transfers need");
   }
   return {stored.label, duration_in_units_of(scene, stored), jet_in_units_of(scene, stored)};
 }
@@ -92,101 +85,25 @@ void refuse_to_replace(const std::filesystem::path& jet, const std::filesystem::
 
 }  // namespace
 
-int transfer(const RunOptions& options, const TransferOptions& transfers) {
-  std::optional<io::StoredJet> stored;
-  if (transfers.directory) stored = read_stored_jet(transfers);
+int transfer_by_stored_jet(const RunOptions& options, const StoredJetChoice& jet) {
+  const io::StoredJet stored = read_stored_jet(jet);
+  const Scene scene = read_scene_of(stored, options);
+  const io::StudyDescription& study = io::study_of_table("transfer");
   // A stored jet may well have been composed of arcs.
-  const Scene scene =
-      stored ? read_scene_of(*stored, options) : read_unsplit_scene(options, "hamjet transfer");
-  require_transfer(scene, *options.scene_file);
+  io::require_table(study, scene, *options.scene_file);
   note_escape(options, scene);
-  std::optional<EarlierJet> earlier;
-  const std::string name = scene.name + transfer_suffix;
-  if (stored) {
-    refuse_to_replace(*transfers.directory, output_path(options, name));
-    earlier = earlier_jet(transfers, *stored, scene);
-    if (!options.quiet && !has_time_alone(*scene.transfer, earlier->time)) {
-      print_error(
-          fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "
-                      "the place of the scene's",
-                      earlier->time * scene.units.time_s, earlier->jet.at(0).order()));
-    }
+  const std::string name = scene.name + study.suffix();
+  refuse_to_replace(*jet.directory, output_path(options, name));
+  const EarlierJet earlier = earlier_jet(jet, stored, scene);
+  if (!options.quiet && !has_time_alone(*scene.transfer, earlier.time)) {
+    print_error(
+        fmt::format("note: the stored jet has one time, {:.10g} s, and order {}; they take "
+                    "the place of the scene's",
+                    earlier.time * scene.units.time_s, earlier.jet.at(0).order()));
   }
   return report_study(options, name, [&](const ProgressCallback& progress) {
-    const TransferResult result = study_of(*options.scene_file, [&] {
-      return study_transfer(scene, progress, earlier ? &*earlier : nullptr);
-    });
-    std::optional<RelativeTrajectory> trajectory;
-    if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
-    std::optional<ValidityResult> validity;
-    if (scene.validity) validity = study_validity(scene, progress);
-    return io::transfer_report(result, trajectory, validity, report_origin(options.command));
-  });
-}
-
-int motion(const RunOptions& options) {
-  const Scene scene = read_unsplit_scene(options, "hamjet motion");
-  require_deputy(scene, *options.scene_file);
-  note_escape(options, scene);
-  return report_study(options, scene.name + motion_suffix, [&](const ProgressCallback& progress) {
-    return io::deputy_motion_report(
-        study_of(*options.scene_file, [&] { return study_deputy_motion(scene, progress); }),
-        report_origin(options.command));
-  });
-}
-
-int validity(const RunOptions& given, const std::optional<std::string>& coordinates) {
-  const bool is_of_all = coordinates == all_coordinates;
-  RunOptions options = given;
-  if (coordinates && !is_of_all) {
-    options.overrides.push_back(fmt::format("jet.coordinates=\"{}\"", *coordinates));
-    options.overrides.emplace_back("jet.end_coordinates=null");
-  }
-  const Scene scene = read_unsplit_scene(options, "hamjet validity");
-  require_validity(scene, *options.scene_file);
-  return report_study(options, scene.name + validity_suffix, [&](const ProgressCallback& progress) {
-    if (is_of_all) {
-      return io::coordinates_report(
-          study_of(*options.scene_file, [&] { return study_validity_in_all(scene, progress); }),
-          report_origin(options.command));
-    }
-    return io::validity_report(
-        study_of(*options.scene_file, [&] { return study_validity(scene, progress); }),
-        report_origin(options.command));
-  });
-}
-
-int assign(const RunOptions& options) {
-  const Scene scene = read_unsplit_scene(options, "hamjet assign");
-  require_assignment(scene, *options.scene_file);
-  note_escape(options, scene);
-  return report_study(
-      options, scene.name + assignment_suffix, [&](const ProgressCallback& progress) {
-        return io::assignment_report(
-            study_of(*options.scene_file, [&] { return study_assignment(scene, progress); }));
-      });
-}
-
-int poincare(const RunOptions& options) {
-  const Scene scene = read_unsplit_scene(options, "hamjet poincare");
-  return report_study(options, scene.name + poincare_suffix, [&](const ProgressCallback& progress) {
-    if (scene.event) {
-      return io::event_report(
-          study_of(*options.scene_file, [&] { return study_event(scene, progress); }),
-          report_origin(options.command));
-    }
-    return io::frozen_orbit_report(
-        study_of(*options.scene_file, [&] { return study_frozen_orbit(scene, progress); }),
-        report_origin(options.command));
-  });
-}
-
-int bounded(const RunOptions& options) {
-  const Scene scene = read_unsplit_scene(options, "hamjet bounded");
-  require_bounded(scene, *options.scene_file);
-  return report_study(options, scene.name + bounded_suffix, [&](const ProgressCallback& progress) {
-    return io::bounded_report(
-        study_of(*options.scene_file, [&] { return study_bounded(scene, progress); }),
+    return io::flown_transfer_report(
+        study_of(*options.scene_file, [&] { return study_transfer(scene, progress, &earlier); }),
         report_origin(options.command));
   });
 }

@@ -17,9 +17,9 @@ constexpr int most_parts = 50;
 }  // namespace
 
 BoundedFamily::BoundedFamily(const ZonalGravity& field, const SixNumbers<double>& chief, int order,
-                             int revolutions, double tolerance, const Progress& progress)
+                             int revolutions, const GaussSettings& gauss, const Progress& progress)
     : section_(field, ChartName::nodal, chief),
-      period_(first_return<double>(field, chief, 0, tolerance).flight.time[0]),
+      period_(first_return<double>(field, chief, 0, gauss).flight.time[0]),
       mean_period_(SeriesSpace::create(nodal_variables, order)),
       mean_node_(mean_period_.space_pointer()) {
   const SpacePointer& space = mean_period_.space_pointer();
@@ -27,9 +27,7 @@ BoundedFamily::BoundedFamily(const ZonalGravity& field, const SixNumbers<double>
   const int parts = (revolutions + each - 1) / each;
   double squares = 0;
   for (int k = 0; k <= parts; ++k) squares += std::pow(k - 0.5 * parts, 2);
-  GaussSettings settings;
-  settings.tolerance = tolerance;
-  FlowBoxPropagation<double> propagation(field, ChartName::nodal, chief, order, settings);
+  FlowBoxPropagation<double> propagation(field, ChartName::nodal, chief, order, gauss);
   times_ = {0};
   for (int k = 1; k <= parts; ++k) {
     times_.push_back(k * each * period_);

@@ -41,7 +41,7 @@ class BoundedFamily {
   /// without a nodal section, for a field in which all orbits of an energy stay together (no J2),
   /// and as integrate_gauss.
   BoundedFamily(const ZonalGravity& field, const SixNumbers<double>& chief, int order,
-                int revolutions, double tolerance, const Progress& progress = {});
+                int revolutions, const GaussSettings& gauss, const Progress& progress = {});
 
   const FlowSection<double>& section() const { return section_; }
   /// The times of the window, equal multiples of the chief's nodal period at its start; the first

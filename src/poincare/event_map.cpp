@@ -80,7 +80,7 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
 
 template <class Real>
 EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
-                         const Real& near, int order, double tolerance,
+                         const Real& near, int order, const GaussSettings& gauss,
                          const EventCondition<Real>& condition) {
   using std::abs;
   using std::sqrt;
@@ -96,15 +96,13 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     flow.variables.push_back(i);
     flow.initial_jet->push_back(Series<Real>::variable(space, i, chief[i]));
   }
-  GaussSettings settings;
-  settings.tolerance = tolerance;
   IntegrationStatistics statistics;
   const auto advance = [&](const Real& time) {
     if (time == Real(0)) return;
     flow.duration = time;
     flow.initial_state.clear();
     for (const auto& component : *flow.initial_jet) flow.initial_state.push_back(component[0]);
-    *flow.initial_jet = integrate_gauss<Real>(flow, settings, statistics);
+    *flow.initial_jet = integrate_gauss<Real>(flow, gauss, statistics);
   };
   advance(near);
   Real time = near;
@@ -152,7 +150,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
 
 template EventMap<InstantiatedReal> event_map(const DynamicalSystem&,
                                               const SixNumbers<InstantiatedReal>&,
-                                              const InstantiatedReal&, int, double,
+                                              const InstantiatedReal&, int, const GaussSettings&,
                                               const EventCondition<InstantiatedReal>&);
 
 }  // namespace hamjet

@@ -32,7 +32,7 @@ void take_first_order(const ZonalGravity& field, const Real& energy, SixNumbers<
 
 template <class Real>
 FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<Real>& chief,
-                                    bool from_circle, double tolerance) {
+                                    bool from_circle, const GaussSettings& gauss) {
   using std::abs;
   using std::hypot;
   using std::sqrt;
@@ -49,7 +49,7 @@ FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<
   SixNumbers<Real> z = orbit.coordinates;
   for (int i = 0; i < most_iterations; ++i) {
     const SixNumbers<Real> state = section.state(orbit.energy, z);
-    const ReturnMap<Real> back = first_return<Real>(field, state, 1, tolerance);
+    const ReturnMap<Real> back = first_return<Real>(field, state, 1, gauss);
     const auto slope = [](const Series<Real>& series, NodalVariable variable) {
       return series[series.space().linear_index(variable)];
     };
@@ -100,6 +100,6 @@ FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<
 
 template FrozenOrbit<InstantiatedReal> find_frozen_orbit(const ZonalGravity&,
                                                          const SixNumbers<InstantiatedReal>&, bool,
-                                                         double);
+                                                         const GaussSettings&);
 
 }  // namespace hamjet

@@ -39,6 +39,6 @@ struct FrozenOrbit {
 /// 58 (1994) 99.
 template <class Real>
 FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<Real>& chief,
-                                    bool from_circle, double tolerance);
+                                    bool from_circle, const GaussSettings& gauss);
 
 }  // namespace hamjet

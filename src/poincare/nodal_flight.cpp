@@ -34,12 +34,10 @@ Real kepler_period(const Real& energy, const Real& mu) {
 
 template <class Real>
 ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& chief,
-                            const Real& near, int order, double tolerance) {
+                            const Real& near, int order, const GaussSettings& gauss) {
   using std::abs;
   using std::sqrt;
-  GaussSettings settings;
-  settings.tolerance = tolerance;
-  FlowBoxPropagation<Real> propagation(field, ChartName::nodal, chief, order, settings);
+  FlowBoxPropagation<Real> propagation(field, ChartName::nodal, chief, order, gauss);
   constexpr int most_iterations = 10;
   Real time = near;
   Real left = 0;
@@ -66,18 +64,20 @@ ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& c
 
 template <class Real>
 ReturnMap<Real> first_return(const ZonalGravity& field, const SixNumbers<Real>& chief, int order,
-                             double tolerance) {
+                             const GaussSettings& gauss) {
   const FlowSection<Real> section(field, ChartName::nodal, chief);
   return return_near<Real>(field, chief, kepler_period<Real>(section.energy(), Real(field.mu)),
-                           order, tolerance);
+                           order, gauss);
 }
 
 template NodalFlight<InstantiatedReal> nodal_flight(const FlowBoxMap<InstantiatedReal>&);
 template ReturnMap<InstantiatedReal> return_near(const ZonalGravity&,
                                                  const SixNumbers<InstantiatedReal>&,
-                                                 const InstantiatedReal&, int, double);
+                                                 const InstantiatedReal&, int,
+                                                 const GaussSettings&);
 template ReturnMap<InstantiatedReal> first_return(const ZonalGravity&,
-                                                  const SixNumbers<InstantiatedReal>&, int, double);
+                                                  const SixNumbers<InstantiatedReal>&, int,
+                                                  const GaussSettings&);
 template InstantiatedReal kepler_period(const InstantiatedReal&, const InstantiatedReal&);
 
 }  // namespace hamjet

@@ -39,12 +39,12 @@ struct ReturnMap {
 /// node is defined, if Newton's method does not bring it to its section, and as integrate_gauss.
 template <class Real>
 ReturnMap<Real> return_near(const ZonalGravity& field, const SixNumbers<Real>& chief,
-                            const Real& time, int order, double tolerance);
+                            const Real& time, int order, const GaussSettings& gauss);
 
 /// The first return, which the field moves by far less than half a turn from Kepler's period.
 template <class Real>
 ReturnMap<Real> first_return(const ZonalGravity& field, const SixNumbers<Real>& chief, int order,
-                             double tolerance);
+                             const GaussSettings& gauss);
 
 /// Kepler's period of an energy.
 template <class Real>

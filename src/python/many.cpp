@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../app/processors.hpp"
-#include "../app/required_tables.hpp"
+#include "../app/scene_refusal.hpp"
 #include "../studies/many_flows.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"

@@ -109,7 +109,7 @@ void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
   });
   if (root.has(study_key.name) || !is_misspelt) return;
   std::vector<std::string_view> names;
-  for (const StudyDescription& study : all_studies()) {
+  for (const StudyTables& study : all_studies()) {
     names = joined<std::string_view>({names, study.top.names()});
   }
   root.attempt([&] { root.check_keys({.keys = names}); });
@@ -140,10 +140,10 @@ const std::vector<SceneKey>& head_keys() {
   return keys;
 }
 
-const std::vector<StudyDescription>& all_studies() {
-  static const std::vector<StudyDescription> studies = [] {
+const std::vector<StudyTables>& all_studies() {
+  static const std::vector<StudyTables> studies = [] {
     const auto& names = study_key.form.choices;
-    return std::vector<StudyDescription>{
+    return std::vector<StudyTables>{
         {names[0], flow_jet_top()},
         {names[1], paper_top("canonical_transformation", canonical_transformation_table())},
         {names[2], energy_conservation_top()},

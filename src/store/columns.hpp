@@ -1,52 +1,15 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "csv_values.hpp"
+#include "cell_value.hpp"
 
 namespace hamjet::io {
-
-/// What a cell of a table holds: nothing, yes or no, a number, or a text.
-using CellValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
-
-/// A number, a text or an optional one as a cell holds it.
-template <class Value>
-CellValue cell_value(const Value& value) {
-  if constexpr (std::is_same_v<Value, CellValue> || std::is_same_v<Value, bool>) {
-    return value;
-  } else if constexpr (std::is_integral_v<Value>) {
-    return static_cast<std::int64_t>(value);
-  } else if constexpr (std::is_floating_point_v<Value>) {
-    return static_cast<double>(value);
-  } else if constexpr (requires { value.has_value(); }) {
-    return value ? cell_value(*value) : CellValue();
-  } else {
-    return std::string(std::string_view(value));
-  }
-}
-
-/// A value as CSV has it, empty where there is none.
-inline std::string csv_text(const CellValue& value) {
-  return std::visit(
-      []<class Value>(const Value& held) -> std::string {
-        if constexpr (std::is_same_v<Value, std::monostate>) {
-          return {};
-        } else if constexpr (std::is_same_v<Value, double>) {
-          return csv_number(held);
-        } else {
-          return fmt::format("{}", held);
-        }
-      },
-      value);
-}
 
 /// A column of a table: its name, and the value of its cell in a row.
 template <class Row>

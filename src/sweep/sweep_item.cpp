@@ -6,19 +6,14 @@
 #include <type_traits>
 #include <utility>
 
-#include "../report/formation/deputy_motion_report.hpp"
-#include "../report/formation/transfer_json.hpp"
-#include "../report/formation/transfer_view.hpp"
-#include "../report/formation/validity_json.hpp"
 #include "../report/paper/paper_reports.hpp"
-#include "../report/study_checks.hpp"
+#include "../report/study_description.hpp"
 #include "../scene/study_reader.hpp"
 #include "../store/json_text.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/report/relative_motion_report.hpp"
 #include "hamjet/report/results.hpp"
 #include "sweep_items.hpp"
 
@@ -55,17 +50,6 @@ ItemOutcome outcome_of(const StudyReport& report) {
   return {report.summary(), report.exit_code, report.failure};
 }
 
-/// The outcome of a study whose report is its summary alone, with its self-checks told in it.
-ItemOutcome checked_outcome(const nlohmann::ordered_json& summary, int exit_code,
-                            const std::string& failure, const std::vector<SelfCheck>& checks) {
-  StudyReport report;
-  report.files = {{"summary.json", json_text(summary, -1)}};
-  report.exit_code = exit_code;
-  report.failure = failure;
-  add_checks(report, checks);
-  return outcome_of(report);
-}
-
 ItemOutcome run_any(const Study& study, const ProgressCallback& progress) {
   return std::visit(
       [&](const auto& scene) {
@@ -78,56 +62,19 @@ ItemOutcome run_any(const Study& study, const ProgressCallback& progress) {
       study);
 }
 
-ItemOutcome run_transfer(const Scene& scene, const ProgressCallback& progress) {
-  const TransferResult result = study_transfer(scene, progress);
-  std::optional<ValidityResult> validity;
-  if (scene.validity) validity = study_validity(scene, progress);
-  return checked_outcome(transfer_report_json(result, validity), exit_code(result),
-                         transfer_failure(result), result.checks);
-}
-
-/// The flow jet of an item whose command needs a table of this name.
-Scene scene_with(Study study, const std::string& file, std::string_view table) {
-  Scene scene = require_flow_jet(std::move(study), file);
-  const bool is_there = table == "transfer"   ? scene.transfer.has_value()
-                        : table == "validity" ? scene.validity.has_value()
-                        : table == "deputy"   ? scene.deputy.has_value()
-                                              : scene.assignment.has_value();
-  if (!is_there) {
-    throw Error(ErrorKind::scene, fmt::format("{}: {}: missing, must be a table [{}]",
-                                              printable(file, std::string::npos), table, table));
-  }
-  return scene;
-}
-
-/// The table that a command works on; none for `run`.
-std::string_view table_of(SweepCommand command) {
-  constexpr std::string_view tables[] = {"", "transfer", "validity", "assignment", "deputy"};
-  return tables[static_cast<std::size_t>(command)];
-}
-
 ItemOutcome run_command(const SweepStudy& study, std::size_t item,
                         const ProgressCallback& progress) {
   const std::string file = study.scene_path.string();
-  const bool is_run = study.command == SweepCommand::run;
+  const bool is_run = study.command == "run";
   Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item),
                               is_run ? SceneUnits::told : SceneUnits::chiefs);
   if (is_run) return run_any(subject, progress);
-  const Scene scene = scene_with(std::move(subject), file, table_of(study.command));
-  switch (study.command) {
-    case SweepCommand::transfer:
-      return run_transfer(scene, progress);
-    case SweepCommand::validity: {
-      const ValidityResult result = study_validity(scene, progress);
-      return checked_outcome(validity_report_json(result), 0, "", result.checks);
-    }
-    case SweepCommand::motion: {
-      const DeputyMotion motion = study_deputy_motion(scene, progress);
-      return checked_outcome(deputy_motion_json(motion), 0, "", motion.checks);
-    }
-    default:
-      return outcome_of(assignment_report(study_assignment(scene, progress)));
-  }
+  const Scene scene = require_flow_jet(std::move(subject), file);
+  const StudyDescription& described = study_of_command(study.command, scene);
+  require_scene_of(described, scene, file);
+  StudyWork work{progress};
+  work.origin.gnuplot = "";
+  return outcome_of(described.report(scene, work));
 }
 
 /// The element of a list: by its index, or by its label as with --set; none beyond the end.
@@ -296,8 +243,9 @@ void check_sweep_items(const SweepStudy& study) {
     try {
       const std::string file = study.scene_path.string();
       Study subject = parse_study(study.scene_text, file, sweep_overrides(study, item));
-      if (study.command == SweepCommand::run) return;
-      scene_with(std::move(subject), file, table_of(study.command));
+      if (study.command == "run") return;
+      const Scene scene = require_flow_jet(std::move(subject), file);
+      require_scene_of(study_of_command(study.command, scene), scene, file);
       return;
     } catch (const Error& error) {
       if (!first_error) first_error = error;

@@ -28,7 +28,7 @@ std::string sweep_manifest(const SweepStudy& study) {
                {"study", study.name},
                {"title", study.title},
                {"version", study.version},
-               {"command", sweep_command_names()[static_cast<std::size_t>(study.command)]},
+               {"command", study.command},
                {"scene", study.scene},
                {"scene_text", study.scene_text}};
   json["set"] = Json::array();
@@ -75,7 +75,7 @@ SweepStudy parse_sweep_manifest(const std::string& text, const std::string& file
   study.name = json.at("study").text();
   study.title = json.at("title").text();
   study.version = json.at("version").text();
-  study.command = json.at("command").one_of<SweepCommand>(sweep_command_names());
+  study.command = sweep_commands()[json.at("command").one_of<std::size_t>(sweep_commands())];
   study.scene = json.at("scene").text();
   study.scene_text = json.at("scene_text").text();
   for (const auto& constant : json.at("set").list([](const JsonReader& pair) {

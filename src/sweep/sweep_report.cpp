@@ -86,7 +86,7 @@ std::string summary_of(const SweepStudy& study, const SweepRows& rows, const Cou
       {"sweep", study.name},
       {"title", study.title},
       {"version", study.version},
-      {"command", sweep_command_names()[static_cast<std::size_t>(study.command)]},
+      {"command", study.command},
       {"scene", study.scene},
       {"manifest_crc32", fmt::format("{:08x}", record_of("", sweep_manifest(study)).crc32)},
       {"items", study.items.size()},

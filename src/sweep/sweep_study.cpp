@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "../report/study_description.hpp"
 #include "../scene/document/scene_document.hpp"
 #include "../scene/document/scene_text.hpp"
 #include "../scene/scene_name.hpp"
@@ -191,7 +192,7 @@ SweepMap read_map(const TableReader& map, const SweepStudy& study) {
 void read_sweep_table(const TableReader& sweep, const toml::table& table,
                       const std::filesystem::path& file, SweepStudy& study) {
   sweep.check_keys();
-  study.command = static_cast<SweepCommand>(sweep.choice("command"));
+  study.command = sweep_commands()[sweep.choice("command")];
   study.scene = sweep.text("scene");
   if (study.scene.empty()) sweep.fail("scene", "empty, must name the base scene's file");
   study.scene_path = file.parent_path() / study.scene;
@@ -207,10 +208,13 @@ void read_sweep_table(const TableReader& sweep, const toml::table& table,
 
 }  // namespace
 
-const std::vector<std::string_view>& sweep_command_names() {
-  static const std::vector<std::string_view> names = {"run", "transfer", "validity", "assign",
-                                                      "motion"};
-  return names;
+const std::vector<std::string_view>& sweep_commands() {
+  static const std::vector<std::string_view> commands = [] {
+    std::vector<std::string_view> all = study_commands();
+    all.insert(all.begin(), "run");
+    return all;
+  }();
+  return commands;
 }
 
 SweepStudy read_sweep_study(const std::filesystem::path& file) {

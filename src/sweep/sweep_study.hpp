@@ -12,11 +12,9 @@
 
 namespace hamjet::io {
 
-/// Which command the items of a sweep are: what `hamjet run`, `transfer`, `validity`, `assign` or
-/// `motion` computes, without files and plots.
-enum class SweepCommand { run, transfer, validity, assign, motion };
-/// The commands' names, in the order of the enumeration.
-const std::vector<std::string_view>& sweep_command_names();
+/// The commands that the items of a sweep may be: `run` and those of all studies, without files and
+/// plots.
+const std::vector<std::string_view>& sweep_commands();
 
 /// A key of the scene that differs from item to item.
 struct SweepKey {
@@ -47,7 +45,7 @@ struct SweepStudy {
   std::string name;  ///< of the file, fit for a directory
   std::string title;
   std::string version;  ///< of the hamjet that made it
-  SweepCommand command = SweepCommand::run;
+  std::string command = "run";
   std::string scene;                 ///< the base scene's file, as the study names it
   std::string scene_text;            ///< its content
   std::filesystem::path scene_path;  ///< where it is; empty in a study that a manifest gave

@@ -10,7 +10,7 @@ ValueForm spacing_or_scale() { return form::choice({"linear", "logarithmic"}); }
 const TableDescription& sweep_table() {
   static const TableDescription table = {
       {{"scene", form::text(), absent::refused(), "the base scene's file, relative to the study"},
-       {"command", form::choice(sweep_command_names()), absent::refused(),
+       {"command", form::choice(sweep_commands()), absent::refused(),
         "what is done with each item"},
        {"set", form::words("keys of the scene"), absent::other("none"),
         "the same in all items, as `--set` takes them"}}};

@@ -7,7 +7,7 @@ import os
 import numpy as np
 
 import orbit
-from command import Refused, Run, number
+from command import Refused, Run
 from drawing import Scene
 from flight import REAL
 from refusal import judge_refusal
@@ -91,10 +91,6 @@ def judge(judgement, scene, folder):
         if reach == 0:
             judgement.mark(f"order {order} reaches nowhere")
             continue
-        # Where the miss grows like a wall, as its told degree says, a reach is known to the few
-        # percent between the separations that were tried.
-        if (number(row["limit_degree"]) or 0) > 30:
-            reach *= 0.95
         worst, deviation = search(scene, predict, order, reach)
         if worst is None:
             judgement.mark(f"order {order}: beyond what eval gives numbers of")

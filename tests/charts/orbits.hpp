@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "charts/chief_orbit.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet::test {
 
@@ -23,6 +24,13 @@ inline SixNumbers<double> random_deviation(std::mt19937_64& generator, double si
   SixNumbers<double> result;
   for (double& x : result) x = size * normal(generator);
   return result;
+}
+
+/// The Gauss method of eight stages with a tolerance.
+inline GaussSettings gauss_of(double tolerance) {
+  GaussSettings gauss;
+  gauss.tolerance = tolerance;
+  return gauss;
 }
 
 }  // namespace hamjet::test

@@ -18,7 +18,7 @@ using test::ChiefOrbit;
 using test::IndependentFlight;
 using test::orbit_of;
 
-constexpr double integration_tolerance = 1e-13;
+const GaussSettings integration_gauss = test::gauss_of(1e-13);
 
 ChiefOrbit in_egm96(ChiefOrbit orbit) {
   orbit.field = test::egm96(orbit.field.radius);
@@ -87,7 +87,7 @@ double size_of(const BoundedFamily& family, double amplitude) {
 // first-order J2 invariance; here at order 4 to 100 km about a sun-synchronous chief.
 TEST(BoundedFamily, StaysOverAThousandRevolutionsFlownIndependently) {
   const ChiefOrbit orbit = in_egm96(orbit_of(7086, 0.00113, 98.2, 0, 90, 0));
-  const BoundedFamily family(orbit.field, orbit.start, 4, 1000, integration_tolerance);
+  const BoundedFamily family(orbit.field, orbit.start, 4, 1000, integration_gauss);
   const double unit = std::sqrt(family.section().chief()[3]);
   for (const double amplitude : {1e-4, 7e-3}) {
     const double q = 0.8 * amplitude * unit, p = 0.6 * amplitude * unit;
@@ -113,7 +113,7 @@ TEST(BoundedFamily, StaysWithEccentricChiefsFlownIndependently) {
   for (const Case& one : {Case{in_egm96(orbit_of(26600, 0.74, 63.4, 0, 270, 0)), 1.6},
                           Case{in_egm96(orbit_of(24400, 0.73, 7, 0, 180, 0)), 1.5}}) {
     const ChiefOrbit& orbit = one.orbit;
-    const BoundedFamily family(orbit.field, orbit.start, 6, 1000, integration_tolerance);
+    const BoundedFamily family(orbit.field, orbit.start, 6, 1000, integration_gauss);
     const auto& chief = family.section().chief();
     const double amplitude = 500 * orbit.field.radius / 6378.1363 / (chief[3] * chief[3]);
     const double unit = amplitude * std::sqrt(chief[3]);
@@ -128,7 +128,7 @@ TEST(BoundedFamily, StaysWithEccentricChiefsFlownIndependently) {
 // Each degree of the polynomials takes the drift of a large formation down.
 TEST(BoundedFamily, DriftsFallWithTheDegree) {
   const ChiefOrbit orbit = in_egm96(orbit_of(9000, 0.15, 50, 0, 30, 0));
-  const BoundedFamily family(orbit.field, orbit.start, 4, 60, integration_tolerance);
+  const BoundedFamily family(orbit.field, orbit.start, 4, 60, integration_gauss);
   const double unit = std::sqrt(family.section().chief()[3]);
   const double amplitude = 0.04;
   const double size = size_of(family, amplitude);
@@ -145,7 +145,7 @@ TEST(BoundedFamily, DriftsFallWithTheDegree) {
 // and momenta go as the root of the length.
 TEST(BoundedFamily, IsTheSameInAnyUnitOfLength) {
   const ChiefOrbit orbit = orbit_of(10000, 0.2, 50, 0, 20, 0, 1e-6, 0);
-  const BoundedFamily family(orbit.field, orbit.start, 1, 4, integration_tolerance);
+  const BoundedFamily family(orbit.field, orbit.start, 1, 4, integration_gauss);
   const double pair = 1e-3;
   const auto member = family.member(0.6 * pair, 0.8 * pair, 1);
   for (const double unit : {1e-5, 1e10}) {
@@ -155,7 +155,7 @@ TEST(BoundedFamily, IsTheSameInAnyUnitOfLength) {
     SixNumbers<double> start = orbit.start;
     for (std::size_t i = 0; i < 3; ++i) start[i] *= unit;
     for (std::size_t i = 3; i < 6; ++i) start[i] /= root;
-    const BoundedFamily scaled(field, start, 1, 4, integration_tolerance);
+    const BoundedFamily scaled(field, start, 1, 4, integration_gauss);
     const double size = pair * std::sqrt(root);
     const auto found = scaled.member(0.6 * size, 0.8 * size, 1);
     EXPECT_NEAR(found.energy, member.energy, 1e-3 * std::abs(member.energy)) << unit;
@@ -169,7 +169,7 @@ TEST(BoundedFamily, IsTheSameInAnyUnitOfLength) {
 TEST(BoundedFamily, IsThatOfBrouwersRatesInAWeakField) {
   const double J2 = 1e-6;
   const ChiefOrbit orbit = orbit_of(10000, 0.2, 50, 0, 20, 0, J2, 0);
-  const BoundedFamily family(orbit.field, orbit.start, 2, 20, integration_tolerance);
+  const BoundedFamily family(orbit.field, orbit.start, 2, 20, integration_gauss);
   const auto& chief = family.section().chief();
   const double oblateness = J2 * std::pow(orbit.field.radius, 2);
   const double size = std::hypot(chief[q_place], chief[p_place]);
@@ -203,7 +203,7 @@ TEST(BoundedFamily, IsThatOfBrouwersRatesInAWeakField) {
 TEST(BoundedFamily, RefusesAFieldWithoutOblateness) {
   const ChiefOrbit orbit = orbit_of(9000, 0.1, 50, 0, 30, 0, 0, 0);
   try {
-    const BoundedFamily family(orbit.field, orbit.start, 2, 10, integration_tolerance);
+    const BoundedFamily family(orbit.field, orbit.start, 2, 10, integration_gauss);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::numerical);
@@ -214,7 +214,7 @@ TEST(BoundedFamily, RefusesAFieldWithoutOblateness) {
 // Where the node's drift of a wider orbit would take an inclination below 0 there is no deputy.
 TEST(BoundedFamily, SaysWhereThereIsNoDeputy) {
   const ChiefOrbit orbit = in_egm96(orbit_of(24400, 0.73, 7, 0, 180, 0));
-  const BoundedFamily family(orbit.field, orbit.start, 1, 10, integration_tolerance);
+  const BoundedFamily family(orbit.field, orbit.start, 1, 10, integration_gauss);
   const auto& chief = family.section().chief();
   const double size = std::hypot(chief[q_place], chief[p_place]);
   const double step = -0.05;

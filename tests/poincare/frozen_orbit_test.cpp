@@ -18,11 +18,11 @@ using test::ChiefOrbit;
 using test::IndependentFlight;
 using test::orbit_of;
 
-constexpr double return_tolerance = 1e-14;
+const GaussSettings return_gauss = test::gauss_of(1e-14);
 constexpr double turn = 2 * std::numbers::pi;
 
 FrozenOrbit<double> frozen_of(const ChiefOrbit& orbit) {
-  return find_frozen_orbit<double>(orbit.field, orbit.start, true, return_tolerance);
+  return find_frozen_orbit<double>(orbit.field, orbit.start, true, return_gauss);
 }
 
 double cosine_of_inclination(const SixNumbers<double>& z) {
@@ -42,7 +42,7 @@ TEST(FrozenOrbit, IsAFixedPointOfAnIndependentFlight) {
   const ChiefOrbit orbit = sun_synchronous();
   SixNumbers<Extended> start;
   for (std::size_t i = 0; i < 6; ++i) start[i] = orbit.start[i];
-  const auto frozen = find_frozen_orbit<Extended>(orbit.field, start, true, 1e-22);
+  const auto frozen = find_frozen_orbit<Extended>(orbit.field, start, true, test::gauss_of(1e-22));
   EXPECT_LT(frozen.residual, Extended(1e-20));
   IndependentFlight::State state;
   for (std::size_t i = 0; i < 6; ++i) state[i] = static_cast<long double>(frozen.state[i]);
@@ -101,7 +101,7 @@ TEST(FrozenOrbit, ReturnsPreserveTheArea) {
   for (const ChiefOrbit& orbit :
        {orbit_of(7086, 0.001, 98.2, 0, 90, 0), orbit_of(10000, 0.3, 60, 20, 40, 10),
         orbit_of(26600, 0.74, 63.4, 0, 270, 60)}) {
-    const auto back = first_return<double>(orbit.field, orbit.start, 1, return_tolerance);
+    const auto back = first_return<double>(orbit.field, orbit.start, 1, return_gauss);
     const auto slope = [](const Series<double>& s, NodalVariable v) {
       return s[s.space().linear_index(v)];
     };
@@ -119,7 +119,7 @@ TEST(RotationNormalForm, TurnsTheOtherWayBeyondTheCriticalInclination) {
   for (const auto& [inclination, sign] : {std::pair(58.0, 1.0), std::pair(70.0, -1.0)}) {
     ChiefOrbit orbit = orbit_of(7500, 0.002, inclination, 0, 90, 0);
     const auto frozen = frozen_of(orbit);
-    const auto back = first_return<double>(orbit.field, frozen.state, 2, return_tolerance);
+    const auto back = first_return<double>(orbit.field, frozen.state, 2, return_gauss);
     const RotationNormalForm form(back.flight);
     EXPECT_GT(sign * form.rotation_number({0, 0, 0}), 1e-6) << inclination;
   }
@@ -131,7 +131,7 @@ TEST(RotationNormalForm, HasBrouwersRatesAtEveryAmplitude) {
   const double J2 = 1e-6;
   const ChiefOrbit orbit = orbit_of(8000, 0.004, 40, 0, 40, 10, J2, -1e-10);
   const auto frozen = frozen_of(orbit);
-  const auto back = first_return<double>(orbit.field, frozen.state, 6, return_tolerance);
+  const auto back = first_return<double>(orbit.field, frozen.state, 6, return_gauss);
   const RotationNormalForm form(back.flight);
   const double H = frozen.coordinates[momentum_place];
   const auto rates_at = [&](double action) {
@@ -167,7 +167,7 @@ TEST(RotationNormalForm, HasBrouwersRatesAtEveryAmplitude) {
 TEST(RotationNormalForm, PredictsOrbitsThatAreFlownIndependently) {
   const ChiefOrbit orbit = sun_synchronous();
   const auto frozen = frozen_of(orbit);
-  const auto back = first_return<double>(orbit.field, frozen.state, 4, return_tolerance);
+  const auto back = first_return<double>(orbit.field, frozen.state, 4, return_gauss);
   const RotationNormalForm form(back.flight);
   const FlowSection<double> section(orbit.field, ChartName::nodal, frozen.state);
   const IndependentFlight flight(orbit.field);
@@ -203,7 +203,7 @@ TEST(RotationNormalForm, PredictsOrbitsThatAreFlownIndependently) {
 TEST(FrozenOrbit, IsTheMeanOfALongFlight) {
   const ChiefOrbit orbit = sun_synchronous();
   const auto frozen = frozen_of(orbit);
-  const auto back = first_return<double>(orbit.field, frozen.state, 2, return_tolerance);
+  const auto back = first_return<double>(orbit.field, frozen.state, 2, return_gauss);
   const RotationNormalForm form(back.flight);
   const FlowSection<double> section(orbit.field, ChartName::nodal, frozen.state);
   const double radius = 1e-3;
@@ -233,9 +233,9 @@ TEST(FrozenOrbit, IsTheMeanOfALongFlight) {
 TEST(RotationNormalForm, RefusesAnUnstableOrbit) {
   ChiefOrbit orbit = orbit_of(26600, 0.74, 63.4, 0, 270, 0);
   orbit.field = test::egm96(orbit.field.radius);
-  const auto frozen = find_frozen_orbit<double>(orbit.field, orbit.start, false, return_tolerance);
+  const auto frozen = find_frozen_orbit<double>(orbit.field, orbit.start, false, return_gauss);
   ASSERT_GT(frozen.trace(), 2);
-  const auto back = first_return<double>(orbit.field, frozen.state, 2, return_tolerance);
+  const auto back = first_return<double>(orbit.field, frozen.state, 2, return_gauss);
   try {
     const RotationNormalForm form(back.flight);
     FAIL();

@@ -19,8 +19,8 @@ TEST(SolverFailures, AnEventThatTheChiefDoesNotMeet) {
     return height;
   };
   expect_error(ErrorKind::numerical, "event:", [&] {
-    event_map<double>(zonal_gravity(orbit.field), orbit.start, 0.4 * orbit.period, 1, 1e-13,
-                      condition);
+    event_map<double>(zonal_gravity(orbit.field), orbit.start, 0.4 * orbit.period, 1,
+                      test::gauss_of(1e-13), condition);
   });
 }
 
@@ -28,8 +28,9 @@ TEST(SolverFailures, AnEventThatTheChiefDoesNotMeet) {
 TEST(SolverFailures, AFieldWithoutAFrozenOrbit) {
   ChiefOrbit orbit = orbit_of(7086, 0.001, 98.2, 0, 90, 0);
   orbit.field.J = {{3, 0.1}};
-  expect_error(ErrorKind::numerical, "frozen orbit: Newton's method finds none",
-               [&] { find_frozen_orbit<double>(orbit.field, orbit.start, true, 1e-13); });
+  expect_error(ErrorKind::numerical, "frozen orbit: Newton's method finds none", [&] {
+    find_frozen_orbit<double>(orbit.field, orbit.start, true, test::gauss_of(1e-13));
+  });
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ def test_validity_is_drawn_for_every_order():
     lines = drawn(validity.plot())
     assert list(lines) == ["order 1", "order 2"]
     for order, points in enumerate(lines.values()):
-        assert (points[:, 0] == validity.times_s / 3600).all()
+        assert (points[:, 0] == validity.time_s / 3600).all()
         proved = validity.proved_m[:, order]
         assert np.array_equal(points[:, 1], np.where(proved > 0, proved, np.nan), equal_nan=True)
 

@@ -200,5 +200,5 @@ def test_validity_is_that_of_the_command(tmp_path):
     for name in ("predicted_m", "proved_m", "miss_m"):
         assert getattr(validity, name).shape == (2, 2)
         assert (getattr(validity, name).ravel() == numbers(expected[name])).all(), name
-    assert (validity.times_s == numbers(expected["time_s"])[::2]).all()
+    assert (validity.time_s == numbers(expected["time_s"])[::2]).all()
     assert without_times(hamjet.load(tmp_path / "out").summary) == without_times(validity.summary)

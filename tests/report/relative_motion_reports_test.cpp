@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/formation/validity_table.hpp"
 #include "../../src/report/formation/validity_view.hpp"
 #include "report_tables.hpp"
 #include "support/text.hpp"
@@ -19,7 +20,7 @@ using namespace report_tables;
 
 TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
   const ValidityResult result = sample_validity();
-  const Table table = parse(validity_csv(result));
+  const Table table = parse(table_csv(validity_table(result)));
   ASSERT_EQ(table.rows.size(), 4U);
   EXPECT_EQ(table.number(0, "predicted_m"), 2000.0 / 3);
   EXPECT_EQ(table.number(1, "proved_m"), 3.9e4);
@@ -41,7 +42,7 @@ TEST(ValidityReport, HoldsTheNumbersOfTheResult) {
 
 TEST(ValidityReport, SaysWhatLimitsTheHighestOrder) {
   const ValidityResult result = sample_validity();
-  const Table table = parse(validity_csv(result));
+  const Table table = parse(table_csv(validity_table(result)));
   EXPECT_EQ(table.number(3, "limit_degree"), 2.96875);
   EXPECT_EQ(table.at(3, "limit_start_coordinate"), "period");
   EXPECT_EQ(table.number(3, "limit_end_share"), 0.90625);
@@ -102,7 +103,7 @@ TEST(ValidityReport, NamesTheFrameInEveryFile) {
     EXPECT_EQ(validity["frame"], names.name);
     EXPECT_EQ(validity["derivatives"], is_rtn ? Json(names.derivatives) : Json(nullptr));
     EXPECT_EQ(validity["axes"], is_rtn ? Json({"R", "T", "N"}) : Json({"x", "y", "z"}));
-    const Table table = parse(validity_csv(result));
+    const Table table = parse(table_csv(validity_table(result)));
     ASSERT_EQ(table.rows.size(), 4U);
     for (std::size_t row = 0; row < 4; ++row) {
       EXPECT_EQ(table.at(row, "frame"), names.name);

@@ -126,7 +126,7 @@ void check_keys(const TableDescription& table, const std::string& path,
 
 TEST(SceneKeys, TheReadersDoWhatTheTablesDeclare) {
   std::set<const TableDescription*> checked;
-  for (const StudyDescription& study : all_studies()) {
+  for (const StudyTables& study : all_studies()) {
     if (!checked.empty()) {
       for (const SceneKey& key : study.top.keys) {
         if (key.form.table != nullptr && checked.insert(key.form.table).second) {
@@ -161,7 +161,7 @@ void add_names(const TableDescription& table, std::set<std::string_view>& names)
 
 TEST(SceneKeys, TheDictionaryOfTheFuzzTargetHasThem) {
   std::set<std::string_view> names;
-  for (const StudyDescription& study : all_studies()) add_names(study.top, names);
+  for (const StudyTables& study : all_studies()) add_names(study.top, names);
   const std::string dictionary = content_of("tests/fuzz/scene_text.dict");
   for (const std::string_view name : names) {
     EXPECT_NE(dictionary.find(fmt::format("\n\"{}\"\n", name)), std::string::npos) << name;

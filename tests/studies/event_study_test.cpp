@@ -8,6 +8,7 @@
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
+#include "studies/bounded/scene_gauss.hpp"
 
 namespace hamjet {
 namespace {
@@ -138,6 +139,30 @@ TEST(EventStudy, FindsEventsThatAreCloseToEachOther) {
     EXPECT_NEAR(of_number(1), time - passed, allowed) << below_km;
     EXPECT_NEAR(of_number(2), full_period - time - passed, allowed) << below_km;
     EXPECT_NEAR(of_number(3), full_period + time - passed, allowed) << below_km;
+  }
+}
+
+// The flights are those of the scene's own Gauss method, and other methods are refused.
+TEST(EventStudy, FliesByTheScenesIntegrator) {
+  Scene scene = scene_with_event("surface = \"equator\"");
+  EXPECT_EQ(scene_gauss_label(scene), "gauss8");
+  IntegratorSettings& integrator = scene.integrators.at(0);
+  integrator.label = "coarse";
+  integrator.stages = 3;
+  integrator.tolerance = 1e-3;
+  EXPECT_EQ(scene_gauss_label(scene), "coarse");
+  EXPECT_EQ(scene_gauss(scene, 1e-14).stages, 3);
+  EXPECT_EQ(scene_gauss(scene, 1e-14).tolerance, 1e-14);
+  integrator.tolerance = 1e-16;
+  EXPECT_EQ(scene_gauss(scene, 1e-14).tolerance, 1e-16);
+  integrator.method = IntegrationMethod::velocity_verlet;
+  try {
+    study_event(scene);
+    FAIL() << "the scene has no Gauss method";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::scene);
+    EXPECT_EQ(std::string(error.what()).rfind("integrator: returns and events", 0), 0U)
+        << error.what();
   }
 }
 

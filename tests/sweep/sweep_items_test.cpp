@@ -8,6 +8,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "report/study_description.hpp"
 #include "studies/formation/deputy_motion.hpp"
 #include "sweep/sweep_report.hpp"
 #include "sweep_samples.hpp"
@@ -45,7 +46,7 @@ TEST_F(SweepItems, AnItemIsTheScenesOwnResult) {
 // What `hamjet motion` has in its summary: here the deputy's own start is the farthest it comes,
 // since it is carried toward a chief of the same period.
 TEST_F(SweepItems, AMotionHasItsSeparationsAndErrors) {
-  study_.command = SweepCommand::motion;
+  study_.command = "motion";
   study_.constants = {{"jet.duration_canonical", "0.01"},
                       {"deputy", "{position_m = [0, -1000, 0], velocity_m_s = [0, 0.5, 0]}"}};
   study_.columns = {{"nearest", "m", "/nearest/separation_m"},
@@ -62,6 +63,35 @@ TEST_F(SweepItems, AMotionHasItsSeparationsAndErrors) {
   const SweepRow without = run_sweep_item(study_, 4);
   EXPECT_NE(without.error.find("deputy: missing, must be a table [deputy]"), std::string::npos)
       << without.error;
+}
+
+// An item is a summary of the command of the same name, whatever the study: here of the smallest
+// table that each works on, in a field that singles out a frozen orbit.
+TEST_F(SweepItems, AreOfEveryStudy) {
+  for (const StudyDescription& study : study_descriptions()) {
+    study_.command = study.command;
+    study_.constants = {
+        {"system",
+         "{model = \"zonal-gravity\", mu_km3_s2 = 398600.4415, radius_km = 6378.1363, "
+         "J2 = 1.0826e-3, J3 = -2.53e-6}"},
+        {"nominal",
+         "{a_km = 7100, e = 0.001, i_deg = 50, raan_deg = 10, argp_deg = 90, ma_deg = 0}"},
+        {"jet.duration_canonical", "7"}};
+    study_.keys = {};
+    study_.items = {{}};
+    if (!study.table.empty()) {
+      study_.constants.push_back(
+          {std::string(study.table), "{" + std::string(study.smallest) + "}"});
+    }
+    if (study.table == "assignment") {
+      study_.constants.push_back(
+          {"transfer", "{" + std::string(study_of_table("transfer").smallest) + "}"});
+    }
+    study_.columns = {{"integrator", "", "/integrator"}};
+    const SweepRow row = run_sweep_item(study_, 0);
+    ASSERT_EQ(row.exit_code, 0) << study.command << ' ' << study.table << ": " << row.error;
+    EXPECT_EQ(std::get<std::string>(row.values[0]), "gauss8") << study.command;
+  }
 }
 
 TEST_F(SweepItems, WhatFailsIsARow) {

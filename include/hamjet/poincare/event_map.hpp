@@ -4,6 +4,7 @@
 
 #include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 
@@ -30,7 +31,7 @@ struct EventMap {
 /// surface there, so that the time is no series; and as integrate_gauss.
 template <class Real>
 EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
-                         const Real& near, int order, double tolerance,
+                         const Real& near, int order, const GaussSettings& gauss,
                          const EventCondition<Real>& condition);
 
 }  // namespace hamjet

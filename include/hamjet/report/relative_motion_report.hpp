@@ -19,8 +19,6 @@ std::string transfers_csv(const TransferResult& result);
 std::string singular_times_csv(const TransferResult& result);
 /// `conditions.csv`: one row a transfer time, one column a kind; "inf" where it is singular.
 std::string conditions_csv(const TransferResult& result);
-/// `validity.csv`: one row a time and order.
-std::string validity_csv(const ValidityResult& result);
 /// `assignment.csv`: one row a deputy with its slot and transfer.
 std::string assignment_csv(const AssignmentResult& result);
 /// `costs.csv`: one row a deputy and slot.
@@ -34,12 +32,16 @@ StudyReport transfer_report(const TransferResult& result,
                             const std::optional<RelativeTrajectory>& trajectory,
                             const std::optional<ValidityResult>& validity,
                             const ReportOrigin& origin);
+/// transfer_report with the best point's trajectory, which is flown here, and the validity that the
+/// result has.
+StudyReport flown_transfer_report(const TransferResult& result, const ReportOrigin& origin);
 /// The files of `hamjet validity`: `validity.csv`, `report.html`, `summary.json`.
 StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin);
 /// The files of `hamjet validity --coordinates all`, of the same names: the reach in each of the
 /// coordinates.
 StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOrigin& origin);
-/// The files of `hamjet assign`: `assignment.csv`, `costs.csv`, `summary.json`.
-StudyReport assignment_report(const AssignmentResult& result);
+/// The files of `hamjet assign`: `assignment.csv`, `costs.csv`, `summary.json`, which do not tell
+/// of their origin.
+StudyReport assignment_report(const AssignmentResult& result, const ReportOrigin& origin = {});
 
 }  // namespace hamjet::io

@@ -13,6 +13,7 @@
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "hamjet/studies/validity.hpp"
 
 namespace hamjet {
 
@@ -139,6 +140,7 @@ struct TransferResult {
   std::optional<WaypointTransfers> waypoints;   ///< if the scene has some
   std::optional<CoastingTransfer> coasting;     ///< if the scene asks for it
   std::optional<OtherRevolutions> revolutions;  ///< likewise
+  std::optional<ValidityResult> validity;       ///< likewise
   TransferSeconds seconds;
   std::vector<SelfCheck> checks;  ///< of the chief's flight; transfers have marks of their own
 
@@ -156,11 +158,11 @@ struct EarlierJet {
   FlowJet<double> jet;
 };
 
-/// The study of table `[transfer]`. Jets at all times come from one propagation; kinds, singular
-/// times and answers from them; each answer is proved by flying. The integrator is the scene's
-/// first symplectic one. Throws Error(scene) if the scene has no `[transfer]`, is no orbit, or has
-/// no symplectic integrator; Error(too_large), Error(numerical) as make_problem and the integrator
-/// do.
+/// The study of table `[transfer]`, and of `[validity]` where the scene has it. Jets at all times
+/// come from one propagation; kinds, singular times and answers from them; each answer is proved by
+/// flying. The integrator is the scene's first symplectic one. Throws Error(scene) if the scene has
+/// no `[transfer]`, is no orbit, or has no symplectic integrator; Error(too_large),
+/// Error(numerical) as make_problem and the integrator do.
 ///
 /// With an earlier jet there is one transfer time, the jet's, and its order takes the place of the
 /// scene's; no jet is propagated. Throws Error(scene) if the scene's own chief, flown, does not

@@ -27,10 +27,12 @@ struct ValidityEntry {
   double predicted_m = 0;  ///< from the decay of the jet's degrees
   /// Found by flying the sampled deputies; 0 where none of the separations tried holds.
   double proved_m = 0;
-  double miss_m = 0;         ///< the worst sampled miss at `proved_m`
+  double miss_m = 0;         ///< the worst sampled miss at `proved_m`, or at most that at a wall
   bool is_at_limit = false;  ///< still right at the largest separation tried: a lower bound
-  /// None where nothing limits, or where the flights' rounding hides what does.
-  std::optional<ReachLimit> limit;
+  /// None where nothing limits, at a wall, or where the flights' rounding hides what limits.
+  std::optional<ReachLimit> limit = {};
+  /// A little further the miss of some deputies jumps: they escape, fall or leave the coordinates.
+  bool is_at_wall = false;
 };
 
 /// The validity of all orders at one time.

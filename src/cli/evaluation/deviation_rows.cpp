@@ -5,8 +5,9 @@
 #include <utility>
 
 #include "../../app/refusal.hpp"
-#include "../../app/required_tables.hpp"
+#include "../../app/scene_refusal.hpp"
 #include "../../app/stored_chief.hpp"
+#include "../../report/study_description.hpp"
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
 #include "eval_source.hpp"
@@ -28,7 +29,7 @@ std::vector<double> deputy_row(const EvalOptions& options, const io::StoredJet& 
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("--deputy: {}", error.what()));
   }
-  require_deputy(scene, file);
+  io::require_table(io::study_of_table("deputy"), scene, file);
   if (!is_about_chief(stored, scene)) {
     refuse_scene(file, "nominal",
                  fmt::format("another orbit than that of the jet {}, must be the scene that it was "

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "../../app/refusal.hpp"
-#include "../../app/required_tables.hpp"
+#include "../../app/scene_refusal.hpp"
 #include "../../scene/scene_name.hpp"
 #include "../noted_jet.hpp"
 #include "hamjet/error.hpp"

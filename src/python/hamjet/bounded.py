@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
-from .relative_motion import Flags, Study
+from .relative_motion import Flags
 from .results import Floats, Progress
+from .studies import Study
 from .tables import Table, read_table
 
 

@@ -52,7 +52,7 @@ def draw_transfers(transfers: Transfers, axes: Any) -> Any:
 
 def draw_validity(validity: Validity, axes: Any) -> Any:
     axes = _axes(axes)
-    hours = validity.times_s / _SECONDS_PER_HOUR
+    hours = validity.time_s / _SECONDS_PER_HOUR
     for order, proved_m in enumerate(validity.proved_m.T, start=1):
         # No separation that was tried holds: a logarithmic axis has no place for 0.
         axes.semilogy(hours, np.where(proved_m > 0, proved_m, np.nan), ".-",

@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-import json
-import os
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _hamjet, arguments, plots, scenes, shown
-from .errors import UsageError
 from .immutable import Immutable
 from .results import Floats, Progress
-from .tables import Table, data_frame, read_table
+from .studies import Study, required_study
+from .tables import Table, read_table
 
 Flags = npt.NDArray[np.bool_]
 Indices = npt.NDArray[np.int64]
 
 #: Most intervals of one trajectory: more would be gigabytes of a smooth curve.
 _MOST_INTERVALS = 1_000_000
-
-
-_Study = TypeVar("_Study", bound="_hamjet._Study")
-
-
-def _required(study: _Study | None, what: str) -> _Study:
-    if study is None:
-        raise UsageError(f"{what}: these results were unpickled, which leaves their study behind")
-    return study
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,33 +32,6 @@ class Separation(Immutable):
 
     def __repr__(self) -> str:
         return shown.of(self, f": {self.separation_m:.6g} m at {self.time_s:.6g} s")
-
-
-class Study(Immutable):
-    """What the results of studies of two spacecraft and more have in common."""
-
-    table: Table
-    _study: _hamjet._Study | None
-
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What the command writes as summary.json. Draws the report when first asked."""
-        return dict(json.loads(_required(self._study, "summary").summary))
-
-    def write(self, directory: str | os.PathLike[str]) -> None:
-        """Writes what the command writes, the report among it. Raises InputOutputError."""
-        _required(self._study, "write").write(arguments.path(directory, "directory"))
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with the columns of ``table``, one row each of the command's CSV.
-
-        Raises ImportError where pandas is not installed.
-        """
-        return data_frame(self.table)
-
-    def __getstate__(self) -> dict[str, Any]:
-        # The study, which trajectories are flown and files are written from, is the C++ library's.
-        return {**super().__getstate__(), "_study": None}
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +135,7 @@ class Transfers(Study):
         Returns times in s, (count + 1,), and states, (count + 1, 6), in m and m/s along R, T, N of
         the chief with rotating derivatives. Raises UsageError, also if this time has no answer.
         """
-        return _required(self._study, "trajectory").fly(
+        return required_study(self._study, "trajectory").fly(
             arguments.integer(index, "trajectory: index", 0, len(self.times_s) - 1),
             arguments.integer(count, "trajectory: count", 1, _MOST_INTERVALS))
 
@@ -186,22 +148,13 @@ class Transfers(Study):
         return plots.draw_transfers(self, axes)
 
 
-@dataclass(frozen=True, eq=False)
-class Validity(Study):
-    """Separations up to which the polynomials are right, for T times; immutable."""
-
-    times_s: Floats  #: (T,)
-    predicted_m: Floats  #: (T, N): of the orders 1 to N, from the decay of the jet's degrees
-    proved_m: Floats  #: (T, N): by flying sampled deputies; 0 where none tried holds
-    miss_m: Floats  #: (T, N): the worst sampled miss at ``proved_m``
-    is_lower_bound: Flags  #: (T, N): still right at the largest separation tried
-    table: Table = field(repr=False)  #: the columns of ``validity.csv``, by name
-    _study: _hamjet.ValidityStudy | None = field(repr=False)
+class Validity(Study, table="validity"):
+    """Separations up to which the polynomials are right; immutable, arrays read-only."""
 
     def __repr__(self) -> str:
         least = shown.listed(f"order {order} {proved_m.min():.4g} m"
                              for order, proved_m in enumerate(self.proved_m.T, start=1))
-        return shown.of(self, f": {shown.span(self.times_s)}\n right at all times up to: {least}")
+        return shown.of(self, f": {shown.span(self.time_s)}\n right at all times up to: {least}")
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the proved separation of each order along time.
@@ -286,7 +239,7 @@ def validity(scene: scenes.Scene, *, coordinates: str | None = None,
     ``polynomials``; other arguments as of ``run``. Raises as ``transfer``.
     """
     study = _hamjet.study_separations(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
-    return Validity(**study.arrays(), table=read_table(study.csv), _study=study)
+    return Validity(study)
 
 
 def assign(scene: scenes.Scene, *, coordinates: str | None = None,

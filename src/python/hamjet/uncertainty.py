@@ -11,8 +11,8 @@ import numpy.typing as npt
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
 from .immutable import Immutable
-from .relative_motion import Study, _required
 from .results import Floats, Progress
+from .studies import Study, required_study
 from .tables import Table, read_table
 
 
@@ -85,7 +85,7 @@ class Uncertainty(Study):
         Raises UsageError.
         """
         times, states = self.mean.shape[:2]
-        return _required(self._study, "flown_states").flown_states(
+        return required_study(self._study, "flown_states").flown_states(
             arguments.integer(time, "time", -times, times - 1) % times,
             arguments.integer(state, "state", -states, states - 1) % states)
 

@@ -11,21 +11,15 @@ namespace hamjet::python {
 namespace {
 
 Studied<FrozenOrbitStudy> study_poincare(const GivenScene& given, const py::object& progress) {
-  return studied<FrozenOrbitStudy>(
-      given, progress, "hamjet poincare", nullptr, &study_frozen_orbit,
-      [](const FrozenOrbitStudy& study) { return io::frozen_orbit_report(study, origin()); });
+  return studied(given, progress, "", &study_frozen_orbit, &io::frozen_orbit_report);
 }
 
 Studied<BoundedFormation> study_company(const GivenScene& given, const py::object& progress) {
-  return studied<BoundedFormation>(
-      given, progress, "hamjet bounded", &cli::require_bounded, &study_bounded,
-      [](const BoundedFormation& formation) { return io::bounded_report(formation, origin()); });
+  return studied(given, progress, "bounded", &study_bounded, &io::bounded_report);
 }
 
 Studied<EventStudy> study_condition(const GivenScene& given, const py::object& progress) {
-  return studied<EventStudy>(
-      given, progress, "hamjet poincare", &cli::require_event, &study_event,
-      [](const EventStudy& study) { return io::event_report(study, origin()); });
+  return studied(given, progress, "event", &study_event, &io::event_report);
 }
 
 py::dict event_arrays(const EventStudy& study) {

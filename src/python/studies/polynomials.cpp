@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "../../app/jet_conversion.hpp"
-#include "../../app/required_tables.hpp"
+#include "../../app/scene_refusal.hpp"
 #include "../../store/text_file.hpp"
 #include "../../studies/arcs.hpp"
 #include "../../text/scene_message.hpp"

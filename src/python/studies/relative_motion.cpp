@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "../../app/required_tables.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../report/formation/deputy_motion_report.hpp"
 #include "../../report/formation/transfer_view.hpp"
+#include "../../report/formation/validity_table.hpp"
 #include "../../studies/formation/deputy_motion.hpp"
 #include "../bindings.hpp"
 #include "hamjet/error.hpp"
@@ -17,36 +17,22 @@ namespace hamjet::python {
 namespace {
 
 Studied<TransferResult> study_transfers(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet transfer");
-  cli::require_transfer(checked, given.file);
-  return interruptibly(progress, [scene = checked,
-                                  file = given.file](const ProgressCallback& report) {
-    TransferResult result = cli::study_of(file, [&] { return study_transfer(scene, report); });
-    std::optional<ValidityResult> validity;
-    if (scene.validity) validity = study_validity(scene, report);
-    return Studied<TransferResult>(std::move(result), [validity](const TransferResult& studied) {
-      std::optional<RelativeTrajectory> trajectory;
-      if (const auto best = studied.best_point()) trajectory = fly_relative(studied, *best);
-      return io::transfer_report(studied, trajectory, validity, origin());
-    });
-  });
+  const auto study = [](const Scene& scene, const ProgressCallback& report) {
+    return study_transfer(scene, report);
+  };
+  return studied(given, progress, "transfer", study, &io::flown_transfer_report);
 }
 
 Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& progress) {
-  return studied<DeputyMotion>(
-      given, progress, "hamjet motion", &cli::require_deputy, &study_deputy_motion,
-      [](const DeputyMotion& motion) { return io::deputy_motion_report(motion, origin()); });
+  return studied(given, progress, "deputy", &study_deputy_motion, &io::deputy_motion_report);
 }
 
 Studied<AssignmentResult> assign(const GivenScene& given, const py::object& progress) {
-  return studied<AssignmentResult>(given, progress, "hamjet assign", &cli::require_assignment,
-                                   &study_assignment, &io::assignment_report);
+  return studied(given, progress, "assignment", &study_assignment, &io::assignment_report);
 }
 
 Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
-  return studied<ValidityResult>(
-      given, progress, "hamjet validity", &cli::require_validity, &study_validity,
-      [](const ValidityResult& result) { return io::validity_report(result, origin()); });
+  return studied(given, progress, "validity", &study_validity, &io::validity_report);
 }
 
 const Eigen::Vector3d no_vector = Eigen::Vector3d::Constant(none);
@@ -147,28 +133,6 @@ py::tuple fly(const Studied<TransferResult>& studied, std::size_t point, int cou
   return py::make_tuple(times.array(), states.array({rows, 6}));
 }
 
-py::dict validity_arrays(const ValidityResult& result) {
-  Table time, predicted, proved, miss;
-  std::vector<bool> limit;
-  for (const ValidityPoint& point : result.points) {
-    time.add(point.time * result.scene.units.time_s);
-    for (const ValidityEntry& entry : point.entries) {
-      predicted.add(entry.predicted_m);
-      proved.add(entry.proved_m);
-      miss.add(entry.miss_m);
-      limit.push_back(entry.is_at_limit);
-    }
-  }
-  const std::vector<py::ssize_t> shape = {size_of(result.points.size()), result.scene.order};
-  py::dict arrays;
-  arrays["times_s"] = time.array();
-  arrays["predicted_m"] = predicted.array(shape);
-  arrays["proved_m"] = proved.array(shape);
-  arrays["miss_m"] = miss.array(shape);
-  arrays["is_lower_bound"] = flags(limit, shape);
-  return arrays;
-}
-
 /// Which deputy goes where, and how near all come to each other.
 py::dict assignment_arrays(const AssignmentResult& result) {
   const double unit = result.scene.units.time_s;
@@ -258,13 +222,14 @@ py::tuple extremes(const DeputyMotion& motion) {
 }  // namespace
 
 void bind_relative_motion(py::module_& module) {
+  module.def("declarations", &declarations);
   bind_study<TransferResult>(module, "TransferStudy", &io::transfers_csv, &transfer_arrays)
       .def_property_readonly(
           "exit_code", [](const Studied<TransferResult>& s) { return exit_code(*s.result()); })
       .def("fly", &fly);
   bind_study<DeputyMotion>(module, "MotionStudy", &io::deputy_motion_csv, &motion_arrays)
       .def("extremes", [](const Studied<DeputyMotion>& s) { return extremes(*s.result()); });
-  bind_study<ValidityResult>(module, "ValidityStudy", &io::validity_csv, &validity_arrays);
+  bind_study<ValidityResult>(module, "ValidityStudy", &io::validity_tables);
   bind_study<AssignmentResult>(module, "AssignmentStudy", &io::assignment_csv, &assignment_arrays)
       .def_property_readonly(
           "exit_code", [](const Studied<AssignmentResult>& s) { return exit_code(*s.result()); });

@@ -11,13 +11,14 @@
 #include <vector>
 
 #include "../../app/report_origin.hpp"
-#include "../../app/required_tables.hpp"
-#include "../../studies/arcs.hpp"
+#include "../../app/scene_refusal.hpp"
+#include "../../report/study_description.hpp"
 #include "../arrays.hpp"
 #include "../given_scene.hpp"
 #include "../interruptible.hpp"
 #include "../written_set.hpp"
 #include "hamjet/detail/report/study_report.hpp"
+#include "table_arrays.hpp"
 
 // What the bindings of studies of more than one spacecraft have in common.
 
@@ -53,26 +54,24 @@ class Studied {
 /// What reports say of where they come from.
 inline io::ReportOrigin origin() { return cli::report_origin("the Python module hamjet"); }
 
-/// The scene for `command`, which does not split flows into arcs.
-inline Scene unsplit(const GivenScene& given, const std::string& command) {
+/// The scene of a study's table, as the study's command takes it; `table` is empty where the study
+/// works without one.
+inline Scene scene_of(const GivenScene& given, std::string_view table) {
   Scene scene = given.flow_jet();
-  cli::study_of(given.file, [&] { require_unsplit(scene, command); });
+  io::require_scene_of(io::study_of_table(table), scene, given.file);
   return scene;
 }
 
-/// The scene's study as `command` does it: `require` refuses a scene that has not what the study
-/// needs, and may be null; `study` does it, and `make_report` tells it.
-template <class Result>
-Studied<Result> studied(const GivenScene& given, const py::object& progress,
-                        const std::string& command,
-                        void (*require)(const Scene&, const std::string&),
-                        Result (*study)(const Scene&, const ProgressCallback&),
-                        typename Studied<Result>::MakeReport make_report) {
-  const Scene checked = unsplit(given, command);
-  if (require != nullptr) require(checked, given.file);
-  return interruptibly(progress, [scene = checked, file = given.file, study,
+/// The study of a scene's table, done by `study` and told by `make_report`.
+template <class Result, class Study>
+Studied<Result> studied(const GivenScene& given, const py::object& progress, std::string_view table,
+                        Study study,
+                        io::StudyReport (*make_report)(const Result&, const io::ReportOrigin&)) {
+  return interruptibly(progress, [scene = scene_of(given, table), file = given.file, study,
                                   make_report](const ProgressCallback& report) {
-    return Studied<Result>(cli::study_of(file, [&] { return study(scene, report); }), make_report);
+    return Studied<Result>(
+        cli::study_of(file, [&] { return study(scene, report); }),
+        [make_report](const Result& result) { return make_report(result, origin()); });
   });
 }
 
@@ -88,6 +87,24 @@ struct Table {
     return array_of(std::move(numbers), std::move(shape));
   }
 };
+
+/// Binds what the studies have in common; `tables` gives the tables of a result, the study's own
+/// first.
+template <class Result>
+py::class_<Studied<Result>> bind_study(py::module_& module, const char* name,
+                                       std::vector<io::TableView> (*tables)(const Result&)) {
+  return py::class_<Studied<Result>>(module, name)
+      .def_property_readonly("summary",
+                             [](const Studied<Result>& s) { return s.report().summary(); })
+      .def_property_readonly("failure", [](const Studied<Result>& s) { return s.report().failure; })
+      .def("columns",
+           [tables](const Studied<Result>& s) { return columns_of_tables(tables(*s.result())); })
+      .def("rows",
+           [tables](const Studied<Result>& s) { return rows_of_tables(tables(*s.result())); })
+      .def("write", [](const Studied<Result>& s, const std::filesystem::path& directory) {
+        write_set(s.report(), directory);
+      });
+}
 
 /// Binds what the studies have in common; `csv` and `arrays` make the table's text and the arrays
 /// of a result.

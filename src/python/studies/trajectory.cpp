@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "../../app/required_tables.hpp"
+#include "../../app/scene_refusal.hpp"
 #include "../../studies/scene_trajectory.hpp"
 #include "../arrays.hpp"
 #include "../bindings.hpp"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "../../app/processors.hpp"
-#include "../../app/uncertainty_sections.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../report/uncertainty/collision_arrays.hpp"
 #include "../../report/uncertainty/uncertainty_arrays.hpp"
@@ -20,19 +19,10 @@ namespace hamjet::python {
 namespace {
 
 Studied<UncertaintyResult> study_moments(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet uncertainty");
-  cli::require_uncertainty(checked, given.file);
-  return interruptibly(
-      progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        UncertaintyResult moments =
-            cli::study_of(file, [&] { return study_uncertainty(scene, report); });
-        const auto sections =
-            cli::study_of(file, [&] { return cli::uncertainty_sections(scene, report); });
-        return Studied<UncertaintyResult>(
-            std::move(moments), [sections](const UncertaintyResult& result) {
-              return io::uncertainty_report(result, origin(), sections);
-            });
-      });
+  const auto study = [](const Scene& scene, const ProgressCallback& report) {
+    return study_uncertainty(scene, report, cli::usable_processors());
+  };
+  return studied(given, progress, "uncertainty", study, &io::uncertainty_report);
 }
 
 py::object array_of_numbers(io::NumberArray& array) {
@@ -44,13 +34,12 @@ py::object array_of_numbers(io::NumberArray& array) {
 
 /// The study of [uncertainty.collision] alone, as arrays.
 py::dict collision_of(const GivenScene& given, const py::object& progress) {
-  const Scene checked = unsplit(given, "hamjet uncertainty");
-  auto arrays =
-      interruptibly(progress, [scene = checked, file = given.file](const ProgressCallback& report) {
-        return cli::study_of(file, [&] {
-          return io::collision_arrays(study_collision(scene, cli::usable_processors(), report));
-        });
-      });
+  auto arrays = interruptibly(progress, [scene = scene_of(given, "uncertainty"),
+                                         file = given.file](const ProgressCallback& report) {
+    return cli::study_of(file, [&] {
+      return io::collision_arrays(study_collision(scene, cli::usable_processors(), report));
+    });
+  });
   py::dict result;
   for (io::NumberArray& array : arrays) result[py::str(array.name)] = array_of_numbers(array);
   return result;

@@ -10,6 +10,7 @@
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/bounded/relative_orbit_extent.hpp"
+#include "../../studies/bounded/scene_gauss.hpp"
 #include "../../studies/checks/flight_checks.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
@@ -294,7 +295,7 @@ std::string bounded_csv(const BoundedFormation& formation) {
 }
 
 Json bounded_json(const BoundedFormation& formation) {
-  Json json = study_head_json(formation.scene, "bounded", "gauss8");
+  Json json = study_head_json(formation.scene, "bounded", scene_gauss_label(formation.scene));
   const BoundedSettings& settings = *formation.scene.bounded;
   json["verdict"] = bounded_verdict(formation);
   json["phase_deg"] = settings.phase_deg;

@@ -12,6 +12,7 @@
 #include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/bounded/scene_gauss.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
@@ -157,7 +158,7 @@ std::string event_map_csv(const EventStudy& study) {
 }
 
 Json event_json(const EventStudy& study) {
-  Json json = study_head_json(study.scene, "event", "gauss8");
+  Json json = study_head_json(study.scene, "event", scene_gauss_label(study.scene));
   json["verdict"] = event_verdict(study);
   json["condition"] = condition_text(*study.scene.event);
   json["number"] = study.scene.event->number;

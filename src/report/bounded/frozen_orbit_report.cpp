@@ -9,6 +9,7 @@
 #include "../../store/columns.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/bounded/scene_gauss.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
@@ -135,7 +136,7 @@ std::string frozen_orbit_csv(const FrozenOrbitStudy& study) {
 Json frozen_orbit_json(const FrozenOrbitStudy& study) {
   const auto [real, imaginary] = study.multiplier();
   const CanonicalFactors told = told_factors(study.scene);
-  Json json = study_head_json(study.scene, "poincare", "gauss8");
+  Json json = study_head_json(study.scene, "poincare", scene_gauss_label(study.scene));
   json["verdict"] = frozen_orbit_verdict(study);
   json["frozen_orbit"] = {{"state_canonical", told_state(study.scene, study.state)},
                           {"a_km", study.semi_major_axis * study.scene.units.length_km},

@@ -11,8 +11,9 @@ namespace hamjet::io {
 /// answer.
 class ChartDrawer {
  public:
-  /// The program is a name on the path, or a path.
-  explicit ChartDrawer(std::string program) : program_(std::move(program)) {}
+  /// The program is a name on the path, or a path; without one nothing is drawn.
+  explicit ChartDrawer(std::string program)
+      : program_(std::move(program)), is_asked_(!program_.empty()) {}
 
   /// The chart as a file, or an empty text and the reason.
   std::string draw(const Chart& chart, Drawing drawing, std::string& reason);
@@ -26,7 +27,7 @@ class ChartDrawer {
  private:
   std::string program_;
   std::optional<std::string> problem_;
-  bool is_asked_ = true;
+  bool is_asked_;
 };
 
 }  // namespace hamjet::io

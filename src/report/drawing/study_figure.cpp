@@ -31,11 +31,13 @@ std::vector<std::string> note_lines(const Chart& chart) {
 
 }  // namespace
 
-std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& problem) {
+std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& problem,
+                        const std::string& program) {
+  if (program.empty()) return "";
   constexpr std::size_t title_height = 40;
   std::size_t width = 0;
   std::size_t bottom = 0;
-  ChartDrawer drawer("gnuplot");
+  ChartDrawer drawer(program);
   std::string body;
   for (Chart& chart : charts) {
     fit(chart);
@@ -69,8 +71,8 @@ std::string draw_figure(std::vector<Chart> charts, std::optional<std::string>& p
       width, bottom, body);
 }
 
-void add_figure(StudyReport& report, std::vector<Chart> charts) {
-  std::string figure = draw_figure(std::move(charts), report.drawing_problem);
+void add_figure(StudyReport& report, std::vector<Chart> charts, const std::string& program) {
+  std::string figure = draw_figure(std::move(charts), report.drawing_problem, program);
   if (!figure.empty()) report.files.push_back({"figure.svg", std::move(figure)});
 }
 

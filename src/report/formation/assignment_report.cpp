@@ -235,7 +235,7 @@ std::string pairs_csv(const AssignmentResult& result) {
   return columns.csv(result.pairs);
 }
 
-StudyReport assignment_report(const AssignmentResult& result) {
+StudyReport assignment_report(const AssignmentResult& result, const ReportOrigin& /*origin*/) {
   StudyReport report;
   report.files = {{"assignment.csv", assignment_csv(result)},
                   {"costs.csv", costs_csv(result)},

@@ -15,7 +15,7 @@
 #include "transfer_charts.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
-#include "validity_json.hpp"
+#include "validity_table.hpp"
 #include "validity_view.hpp"
 
 // How far the polynomials reach in each of the coordinates, on the same deputies.
@@ -193,7 +193,7 @@ StudyReport coordinates_report(const ValidityInCoordinates& all, const ReportOri
   std::string csv;
   for (const ValidityResult& result : all.results) {
     summary["coordinates"].push_back(validity_json(result));
-    const std::string rows = validity_csv(result);
+    const std::string rows = table_csv(validity_table(result));
     csv += csv.empty() ? rows : rows.substr(rows.find('\n') + 1);
   }
   summary["refused"] = Json::array();

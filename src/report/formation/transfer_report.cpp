@@ -14,7 +14,7 @@
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
-#include "validity_json.hpp"
+#include "validity_table.hpp"
 #include "validity_view.hpp"
 #include "waypoint_view.hpp"
 
@@ -121,7 +121,7 @@ StudyReport transfer_report(const TransferResult& result,
                   {"conditions.csv", conditions_csv(result)}};
   if (result.optimal) report.files.push_back({"impulses.csv", impulses_csv(result)});
   if (result.waypoints) report.files.push_back({"waypoints.csv", waypoints_csv(result)});
-  if (validity) report.files.push_back({"validity.csv", validity_csv(*validity)});
+  if (validity) report.files.push_back({"validity.csv", table_csv(validity_table(*validity))});
   const OutputSettings& output = result.scene.output;
   const bool has_messages = output.has(oem_format.name) || output.has(oem_xml_format.name);
   if (has_messages && trajectory) {
@@ -134,7 +134,7 @@ StudyReport transfer_report(const TransferResult& result,
       {"report.html", transfer_page(result, trajectory, validity, origin, drawer)});
   report.drawing_problem = drawer.problem();
   if (trajectory && !report.drawing_problem) {
-    add_figure(report, {rendezvous_chart(*trajectory)});
+    add_figure(report, {rendezvous_chart(*trajectory)}, origin.gnuplot);
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);
@@ -145,6 +145,12 @@ StudyReport transfer_report(const TransferResult& result,
   if (validity) report.table += "  validity         " + validity_verdict(*validity) + "\n";
   add_checks(report, result.checks);
   return report;
+}
+
+StudyReport flown_transfer_report(const TransferResult& result, const ReportOrigin& origin) {
+  std::optional<RelativeTrajectory> trajectory;
+  if (const auto best = result.best_point()) trajectory = fly_relative(result, *best);
+  return transfer_report(result, trajectory, result.validity, origin);
 }
 
 }  // namespace hamjet::io

@@ -1,18 +1,18 @@
 #include <fmt/format.h>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../store/csv_values.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../study_checks.hpp"
+#include "frame_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "transfer_json.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
-#include "validity_json.hpp"
+#include "validity_table.hpp"
 #include "validity_view.hpp"
 
 namespace hamjet::io {
@@ -50,46 +50,84 @@ std::string terminal_details(const ValidityResult& result) {
                      duration_text(result.proof_seconds), length_text(result.flight_floor_m));
 }
 
-/// A cell's value, null where it has none.
-Json cell_json(const CellValue& cell) {
-  if (const auto* number = std::get_if<double>(&cell)) return json_number(*number);
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  return nullptr;
+/// An order at a time.
+struct ReachRow {
+  const ValidityPoint& point;
+  const ValidityEntry& entry;
+};
+
+/// A member of what limits a reach, which may be missing.
+template <class Value>
+auto of_limit(Value ReachLimit::*member) {
+  return [member](const ReachRow& row) {
+    return row.entry.limit ? std::optional((*row.entry.limit).*member) : std::nullopt;
+  };
+}
+
+template <class Value>
+auto of_entry(Value ValidityEntry::*member) {
+  return [member](const ReachRow& row) { return row.entry.*member; };
 }
 
 }  // namespace
 
-Json validity_json(const ValidityResult& result) {
+TableView validity_table(const ValidityResult& result) {
   const ValiditySettings& settings = *result.scene.validity;
-  Json points = Json::array();
+  const double unit = result.scene.units.time_s;
+  ResultTable<ReachRow> table(
+      "validity", "/validity", {"times", "orders"},
+      "How far from the chief the polynomials of each order are right to the tolerance.");
+  table.add_scalar("verdict", "", "the outcome in words", validity_verdict(result));
+  table.add_scalar("tolerance_m", "m", "the largest miss that counts as right",
+                   settings.tolerance_m);
+  table
+      .add("time_canonical", "", "since the start, in the scene's canonical unit of time",
+           [&](const ReachRow& row) { return told_time(result.scene, row.point.time); })
+      .level = 1;
+  table
+      .add("time_s", "s", "since the start",
+           [=](const ReachRow& row) { return row.point.time * unit; })
+      .level = 1;
+  table.add("order", "", "of the polynomials", of_entry(&ValidityEntry::order));
+  table.add("predicted_m", "m", "the separation expected from the decay of the jet's degrees",
+            of_entry(&ValidityEntry::predicted_m));
+  table.add("proved_m", "m",
+            "the largest separation found right by flying sampled deputies; 0 where none was",
+            of_entry(&ValidityEntry::proved_m));
+  table.add("miss_m", "m", "the worst miss of the sampled deputies at that separation",
+            of_entry(&ValidityEntry::miss_m));
+  table.add("at_limit", "",
+            "whether nothing further away was tried, so that the separation is a lower bound",
+            of_entry(&ValidityEntry::is_at_limit));
+  add_frame(table, settings.frame, result.coordinates, true);
+  table.add("limit_degree", "",
+            "d log(miss) / d log(separation) of the worst deputy; nothing where nothing limits",
+            of_limit(&ReachLimit::degree));
+  table.add("limit_start_coordinate", "",
+            "the coordinate of that deputy's deviation with the largest part of the degree",
+            of_limit(&ReachLimit::start_coordinate));
+  table.add("limit_start_degree", "", "that part", of_limit(&ReachLimit::start_degree));
+  table.add("limit_end_coordinate", "", "the coordinate in which the polynomials miss most",
+            of_limit(&ReachLimit::end_coordinate));
+  table.add("limit_end_share", "", "its part of the miss, of 1", of_limit(&ReachLimit::end_share));
+  table.add_scalars("semi_axes", "",
+                    "of the ellipsoid of deviations along the axes, over the separation",
+                    settings.semi_axes);
+  table.add_scalar("samples", "", "random deputies of each ellipsoid", settings.samples);
+  table.add_scalar("flights", "", "of deputies with the full equations", result.flights);
+  table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
+  std::vector<ReachRow> rows;
   for (const ValidityPoint& point : result.points) {
-    Json entries = Json::array();
-    for (const ValidityEntry& entry : point.entries) {
-      Json order = {{"order", entry.order},
-                    {"predicted_m", json_number(entry.predicted_m)},
-                    {"proved_m", json_number(entry.proved_m)},
-                    {"miss_m", json_number(entry.miss_m)},
-                    {"at_limit", entry.is_at_limit}};
-      for (const auto& [name, value] : limit_members(entry.limit)) order[name] = cell_json(value);
-      entries.push_back(std::move(order));
-    }
-    points.push_back({{"time_canonical", told_time(result.scene, point.time)},
-                      {"time_s", point.time * result.scene.units.time_s},
-                      {"orders", entries}});
+    for (const ValidityEntry& entry : point.entries) rows.push_back({point, entry});
   }
-  Json json = {{"tolerance_m", settings.tolerance_m}};
+  return std::move(table).view(
+      rows, {result.points.size(), static_cast<std::size_t>(result.scene.order)});
+}
+
+Json validity_json(const ValidityResult& result) {
+  Json json = table_json(validity_table(result));
   add_coordinates(json, result.coordinates);
-  json.update(Json{
-      {"frame", frame_name(settings.frame)},
-      {"derivatives", text_or_null(std::string(derivatives_name(settings.frame)))},
-      {"axes", axis_letters(settings.frame)},
-      {"semi_axes", settings.semi_axes},
-      {"samples", settings.samples},
-      {"verdict", validity_verdict(result)},
-      {"times", points},
-      {"flights", result.flights},
-      {"flight_floor_m", json_number(result.flight_floor_m)},
-      {"seconds", {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}}}});
+  json["seconds"] = {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}};
   return json;
 }
 
@@ -100,34 +138,10 @@ Json validity_report_json(const ValidityResult& result) {
   return summary;
 }
 
-std::string validity_csv(const ValidityResult& result) {
-  const RelativeFrame frame = result.scene.validity->frame;
-  std::string text =
-      "time_canonical,time_s,order,predicted_m,proved_m,miss_m,at_limit,frame,derivatives,"
-      "coordinates,end_coordinates";
-  for (const auto& [name, value] : limit_members({})) text += "," + name;
-  text += '\n';
-  for (const ValidityPoint& point : result.points) {
-    for (const ValidityEntry& entry : point.entries) {
-      text += fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{}", csv_number(told_time(result.scene, point.time)),
-          csv_number(point.time * result.scene.units.time_s), entry.order,
-          csv_number(entry.predicted_m), csv_number(entry.proved_m), csv_number(entry.miss_m),
-          entry.is_at_limit, frame_name(frame), derivatives_name(frame),
-          name_of(result.coordinates.start), name_of(result.coordinates.end));
-      for (const auto& [name, value] : limit_members(entry.limit)) {
-        text += "," + csv_field(csv_text(value));
-      }
-      text += '\n';
-    }
-  }
-  return text;
-}
-
 StudyReport validity_report(const ValidityResult& result, const ReportOrigin& origin) {
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
-  report.files = {{"validity.csv", validity_csv(result)},
+  report.files = {{"validity.csv", table_csv(validity_table(result))},
                   {"report.html", validity_page(result, origin, drawer)}};
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", json_text(validity_report_json(result)) + "\n"});

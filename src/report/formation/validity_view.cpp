@@ -45,18 +45,6 @@ std::string validity_verdict(const ValidityResult& result) {
   return text + unproved_text(result);
 }
 
-std::vector<std::pair<std::string, CellValue>> limit_members(
-    const std::optional<ReachLimit>& limit) {
-  const auto value = [&](auto member) {
-    return limit ? cell_value((*limit).*member) : CellValue();
-  };
-  return {{"limit_degree", value(&ReachLimit::degree)},
-          {"limit_start_coordinate", value(&ReachLimit::start_coordinate)},
-          {"limit_start_degree", value(&ReachLimit::start_degree)},
-          {"limit_end_coordinate", value(&ReachLimit::end_coordinate)},
-          {"limit_end_share", value(&ReachLimit::end_share)}};
-}
-
 std::vector<std::string> limit_cells(const ReachLimit& limit) {
   return {fmt::format("{:.1f}", limit.degree),
           fmt::format("{:.1f} by {}", limit.start_degree, limit.start_coordinate),
@@ -66,6 +54,12 @@ std::vector<std::string> limit_cells(const ReachLimit& limit) {
 std::string reach_limit_text(const ValidityResult& result) {
   if (result.points.empty()) return "";
   const ValidityEntry& entry = result.points.back().entries.back();
+  if (entry.is_at_wall) {
+    return fmt::format(
+        "order {} is limited at {} by a wall: a little further some deputies escape, fall or leave "
+        "the coordinates",
+        entry.order, length_text(entry.proved_m));
+  }
   if (!entry.limit) return "";
   const std::vector<std::string> cells = limit_cells(*entry.limit);
   return fmt::format(

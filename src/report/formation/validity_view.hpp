@@ -1,11 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "../../store/columns.hpp"
 #include "hamjet/studies/validity.hpp"
 
 namespace hamjet::io {
@@ -17,12 +14,9 @@ std::string validity_verdict(const ValidityResult& result);
 /// space.
 std::string unproved_text(const ValidityResult& result);
 
-/// What limits a reach, under the names that files have it by; without values where nothing does.
-std::vector<std::pair<std::string, CellValue>> limit_members(
-    const std::optional<ReachLimit>& limit);
-
-/// The same in cells of a table: the degree in which the miss grows, how much of it is of which
-/// coordinate of the deviation, and how much of the miss is in which coordinate of the end.
+/// What limits a reach in cells of a table: the degree in which the miss grows, how much of it is
+/// of which coordinate of the deviation, and how much of the miss is in which coordinate of the
+/// end.
 inline const std::vector<std::string> limit_head = {"degree", "at the start", "at the end"};
 std::vector<std::string> limit_cells(const ReachLimit& limit);
 

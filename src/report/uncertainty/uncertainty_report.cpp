@@ -12,7 +12,9 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../study_checks.hpp"
+#include "collision_section.hpp"
 #include "hamjet/error.hpp"
+#include "safety_section.hpp"
 #include "uncertainty_view.hpp"
 
 namespace hamjet::io {
@@ -216,8 +218,10 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
 
 }  // namespace
 
-StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrigin& origin,
-                               const std::vector<UncertaintySection>& sections) {
+StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrigin& origin) {
+  std::vector<UncertaintySection> sections;
+  if (result.collision) sections.push_back(collision_section(result.scene, *result.collision));
+  if (result.safety) sections.push_back(safety_section(*result.safety));
   StudyReport report;
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"moments.csv", moments_csv(result)},

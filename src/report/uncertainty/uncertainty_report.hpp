@@ -42,9 +42,8 @@ Chart histogram_chart(const UncertaintyResult& result, const UncertaintyAt& at,
 /// By how much probabilities by the linear covariance may be wrong along time, by coordinates.
 Chart misleading_chart(const UncertaintyResult& result);
 
-/// The files of `hamjet uncertainty`: `moments.csv`, `report.html`, `summary.json`, and what
-/// further sections bring.
-StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrigin& origin,
-                               const std::vector<UncertaintySection>& sections = {});
+/// The files of `hamjet uncertainty`: `moments.csv`, `report.html`, `summary.json`, and what the
+/// sections of collisions and passive safety bring, where the result has them.
+StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrigin& origin);
 
 }  // namespace hamjet::io

@@ -157,7 +157,7 @@ std::optional<std::string> section_on_keys(std::string_view name) {
 std::string key_reference(const TableDescription& sweep_study) {
   std::string text(introduction);
   std::set<const TableDescription*> said;
-  for (const StudyDescription& study : all_studies()) {
+  for (const StudyTables& study : all_studies()) {
     if (said.empty()) {
       text += "\n## The top\n\n" + table_text(study.top.keys);
     } else {

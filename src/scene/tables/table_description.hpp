@@ -165,7 +165,7 @@ const TableDescription& validity_table();
 const std::vector<SceneKey>& head_keys();
 
 /// A study's name and the tables and keys at the top of its scenes.
-struct StudyDescription {
+struct StudyTables {
   std::string_view name;
   TableDescription top;
 };
@@ -175,6 +175,6 @@ struct StudyDescription {
 std::vector<std::string> paths_of_key(std::string_view name);
 
 /// All studies; the first is that of a scene without the key `study`.
-const std::vector<StudyDescription>& all_studies();
+const std::vector<StudyTables>& all_studies();
 
 }  // namespace hamjet::io

@@ -19,12 +19,13 @@
 #include "mean_element_deputies.hpp"
 #include "nodal_section.hpp"
 #include "relative_orbit_extent.hpp"
+#include "scene_gauss.hpp"
 
 namespace hamjet {
 namespace {
 
 /// Of the polynomials' integration, whose errors add up over the window.
-constexpr double map_tolerance = 1e-13;
+constexpr double most_family_tolerance = 1e-13;
 
 std::vector<double> vector_of(const SixNumbers<double>& z) { return {z.begin(), z.end()}; }
 
@@ -37,7 +38,8 @@ class BoundedStudy {
         field_(orbit_field(scene)),
         start_(six_numbers(scene.nominal)),
         units_(metric_units(scene)),
-        family_(field_, start_, scene.order, settings_.revolutions, map_tolerance,
+        family_(field_, start_, scene.order, settings_.revolutions,
+                scene_gauss(scene, most_family_tolerance),
                 [&](double part) {
                   if (progress_) progress_("polynomials", part);
                 }),

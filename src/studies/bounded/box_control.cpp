@@ -16,6 +16,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "scene_gauss.hpp"
 
 namespace hamjet {
 namespace {
@@ -96,7 +97,10 @@ class Keeper {
         company_(scene, scene.nominal, start_of(member), member_of(member)),
         problem_(make_problem(scene)) {
     problem_.symmetry = FlowSymmetry::none;
-    integrator_.tolerance = 1e-12;
+    const GaussSettings gauss = scene_gauss(scene, 1e-12);
+    integrator_.stages = gauss.stages;
+    integrator_.tolerance = gauss.tolerance;
+    integrator_.compensated_summation = gauss.compensated_summation;
   }
 
   BoxControl run() {

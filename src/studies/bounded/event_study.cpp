@@ -24,11 +24,12 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "scene_gauss.hpp"
 
 namespace hamjet {
 namespace {
 
-constexpr double tolerance = 1e-14;
+constexpr double most_event_tolerance = 1e-14;
 /// Places within a step of the trajectory at which a change of sign is looked for.
 constexpr int places_of_step = 8;
 /// A start nearer to the surface than this part of the condition's size is on it.
@@ -50,7 +51,7 @@ class EventSearch {
       : condition_(condition),
         direction_(scene.event->direction),
         trajectory_(trajectory_problem(make_system(scene), scene.nominal, scene.duration),
-                    gauss()) {}
+                    scene_gauss(scene, most_event_tolerance)) {}
 
   /// The time of the event of a number; none if there are fewer, whose count is then found().
   std::optional<double> find(int number) {
@@ -78,12 +79,6 @@ class EventSearch {
   int found() const { return found_; }
 
  private:
-  static GaussSettings gauss() {
-    GaussSettings settings;
-    settings.tolerance = tolerance;
-    return settings;
-  }
-
   double at(double time) const {
     const double value = value_at(condition_, nominal_of(trajectory_.at(time)));
     // No change of sign would show an event beside what is no number.
@@ -330,12 +325,12 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);
-  EventStudy study{
-      scene,
-      event_map<double>(make_system(scene), chief, *near, scene.order, tolerance, condition),
-      0,
-      flown_deputies,
-      {}};
+  EventStudy study{scene,
+                   event_map<double>(make_system(scene), chief, *near, scene.order,
+                                     scene_gauss(scene, most_event_tolerance), condition),
+                   0,
+                   flown_deputies,
+                   {}};
   const EventFlights flights(scene, condition, study.map);
   const std::vector<double>& amplitudes = scene.event->amplitudes_m;
   for (std::size_t k = 0; k < amplitudes.size(); ++k) {

@@ -14,6 +14,7 @@
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
 #include "nodal_section.hpp"
+#include "scene_gauss.hpp"
 
 namespace hamjet {
 namespace {
@@ -65,7 +66,7 @@ struct FlownCircle {
   std::array<double, 2> end;
   double miss;
 };
-std::optional<FlownCircle> flown_circle(const ZonalGravity& field,
+std::optional<FlownCircle> flown_circle(const ZonalGravity& field, const GaussSettings& gauss,
                                         const FlowSection<double>& section,
                                         const RotationNormalForm& form,
                                         const RotationNormalForm::Circle& circle) {
@@ -75,8 +76,8 @@ std::optional<FlownCircle> flown_circle(const ZonalGravity& field,
     z[q_place] += from[0];
     z[p_place] += from[1];
     const SixNumbers<double> state = section.state(section.energy(), z);
-    const ReturnMap<double> back = return_near<double>(
-        field, state, flown_returns * form.mean_period(circle), 0, search_tolerance);
+    const ReturnMap<double> back =
+        return_near<double>(field, state, flown_returns * form.mean_period(circle), 0, gauss);
     const auto wanted = form.pair(circle, form.angle_after(circle, 0, flown_returns));
     const SixNumbers<double>& end = back.map.end->chief();
     const std::array<double, 2> pair = {end[q_place] - section.chief()[q_place],
@@ -106,8 +107,9 @@ void require_resolved_turn(const RotationNormalForm& form, const FrozenOrbitStud
 
 void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
                      const ProgressCallback& progress, FrozenOrbitStudy& study) {
+  const GaussSettings gauss = scene_gauss(study.scene, search_tolerance);
   const ReturnMap<double> back =
-      first_return<double>(field, six_numbers(study.state), study.scene.order, search_tolerance);
+      first_return<double>(field, six_numbers(study.state), study.scene.order, gauss);
   const FlowSection<double> section(field, ChartName::nodal, six_numbers(study.state));
   const RotationNormalForm form(back.flight);
   require_resolved_turn(form, study);
@@ -126,7 +128,7 @@ void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
                          {},
                          {}};
     if (circle.radius > 0) {
-      const std::optional<FlownCircle> flown = flown_circle(field, section, form, circle);
+      const std::optional<FlownCircle> flown = flown_circle(field, gauss, section, form, circle);
       told.miss = flown ? std::optional(flown->miss) : std::nullopt;
       if (flown) told.flown_to = {flown->end[0] / unit, flown->end[1] / unit};
       for (int k = 0; k <= points_of_curve; ++k) {
@@ -156,7 +158,7 @@ void add_normal_form(const ZonalGravity& field, const SixNumbers<double>& chief,
   for (int i = 0; i < most_trials && (bad == 0 || bad > 1.1 * good); ++i) {
     if (progress) progress("reach", static_cast<double>(i) / most_trials);
     const RotationNormalForm::Circle circle{at * unit, 0, 0};
-    const std::optional<FlownCircle> flown = flown_circle(field, section, form, circle);
+    const std::optional<FlownCircle> flown = flown_circle(field, gauss, section, form, circle);
     study.flown_amplitudes.push_back(
         {at, form.rotation_number(circle), flown ? std::optional(flown->miss) : std::nullopt});
     (flown && flown->miss <= FrozenOrbitStudy::largest_miss ? good : bad) = at;
@@ -204,10 +206,11 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   const SixNumbers<double> z = FlowSection<double>(field, ChartName::nodal, chief).chief();
   const double cosine = inclination_cosine(z);
   const bool from_circle = std::abs(5 * cosine * cosine - 1) > critical;
-  const auto coarse = find_frozen_orbit<double>(field, chief, from_circle, search_tolerance);
+  const auto coarse =
+      find_frozen_orbit<double>(field, chief, from_circle, scene_gauss(scene, search_tolerance));
   if (progress) progress("frozen orbit", 0.3);
   const auto frozen = find_frozen_orbit<Extended>(field, converted<Extended>(coarse.state), false,
-                                                  refining_tolerance);
+                                                  scene_gauss(scene, refining_tolerance));
   require_frozen(frozen, field);
   const SixNumbers<double> state = converted<double>(frozen.state);
   study.state.assign(state.begin(), state.end());

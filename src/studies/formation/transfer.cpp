@@ -140,6 +140,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.optimal =
         optimal_impulses(scene, points.problem(), points.linear_flow(), result, progress);
   }
+  if (scene.validity) result.validity = study_validity(asked, progress);
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
   result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), false));

@@ -235,7 +235,8 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
   return divergence_from_gaussian(by_order.back(), by_order.front());
 }
 
-UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress) {
+UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress,
+                                    std::size_t threads) {
   require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
   require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
@@ -340,6 +341,8 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), true));
   result.in_coordinates = moments_in_coordinates(scene, problem, integrator, starts, jet_at_end,
                                                  means, noise_at_end, progress);
+  if (settings.collision) result.collision = study_collision(scene, threads, progress);
+  if (settings.safety) result.safety = study_safety(scene, threads, progress);
   result.propagation_seconds =
       jets.statistics().wall_seconds + (charts ? charts->statistics().wall_seconds : 0);
   for (const auto& own : own_flows) {

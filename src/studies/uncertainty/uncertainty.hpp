@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "collision_study.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/studies/scene.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"
+#include "safety_study.hpp"
 
 namespace hamjet {
 
@@ -71,6 +73,8 @@ struct UncertaintyResult {
   ChosenCoordinates coordinates;  ///< those of the end; not automatic
   std::vector<UncertaintyAt> points;
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
+  std::optional<CollisionResult> collision;          ///< if the scene asks for it
+  std::optional<SafetyResult> safety;                ///< likewise
   std::vector<SelfCheck> checks;                     ///< of the flights of chief and deputy
   double propagation_seconds = 0;
   double moments_seconds = 0;
@@ -89,7 +93,9 @@ MomentsDifference difference_of(const Cumulants& one, const Cumulants& other);
 /// how much a probability may be wrong.
 double divergence_from_linear(const std::vector<Cumulants>& by_order);
 
-/// The moments of the scene's states at its times. Throws as study_validity.
-UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress = {});
+/// The moments of the scene's states at its times, and what the scene asks for of collisions and
+/// passive safety, by so many threads. Throws as study_validity, study_collision and study_safety.
+UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress = {},
+                                    std::size_t threads = 1);
 
 }  // namespace hamjet

@@ -12,7 +12,8 @@ struct ReportOrigin {
   /// Used by comparisons only: all that determines the runs, as the caller writes it; a resumption
   /// compares it with its own.
   std::string determinants;
-  std::string gnuplot = "gnuplot";  ///< program that draws the plots: a name on the path, or a path
+  /// Program that draws the plots: a name on the path, or a path; empty: nothing is drawn.
+  std::string gnuplot = "gnuplot";
 };
 
 }  // namespace hamjet::io

@@ -141,21 +141,25 @@ class ValidityStudy {
     return point;
   }
 
-  /// The samples, and the worst deviations of one degree that are reached from the largest of them.
+  /// The distinct deviations at which the part of one degree is a local maximum, as far as ascents
+  /// from the samples find them, the largest first; then the samples. The largest samples alone may
+  /// all lie below one maximum, and the flown error may be larger at another.
   std::vector<Vector6> samples_with_worst(int degree) {
-    constexpr std::size_t starts = 6;
-    std::vector<Vector6> samples = samples_;
-    std::vector<std::pair<double, std::size_t>> sizes;
-    for (std::size_t k = 0; k < samples_.size(); ++k) {
-      sizes.emplace_back(slice_size(samples_[k], degree), k);
+    constexpr double same = 0.1;  // distance of what two ascents to one maximum find
+    std::vector<std::pair<double, Vector6>> maxima;
+    for (const Vector6& sample : samples_) {
+      const Vector6 found = worst_from(sample, degree);
+      const bool is_known = std::any_of(maxima.begin(), maxima.end(), [&](const auto& maximum) {
+        return (maximum.second - found).norm() < same;
+      });
+      if (!is_known) maxima.emplace_back(slice_size(found, degree), found);
     }
-    std::sort(sizes.rbegin(), sizes.rend());
-    for (std::size_t k = 0; k < std::min(starts, sizes.size()); ++k) {
-      samples.push_back(worst_from(samples_[sizes[k].second], degree));
-    }
-    // The worst samples come first: a deputy that misses by far ends the trial.
-    std::rotate(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples_.size()),
-                samples.end());
+    std::sort(maxima.begin(), maxima.end(),
+              [](const auto& a, const auto& b) { return a.first > b.first; });
+    // The worst deviations come first: a deputy that misses by far ends the trial.
+    std::vector<Vector6> samples;
+    for (const auto& [size, deviation] : maxima) samples.push_back(deviation);
+    samples.insert(samples.end(), samples_.begin(), samples_.end());
     return samples;
   }
 
@@ -189,7 +193,8 @@ class ValidityStudy {
       flown_samples_ = samples_with_worst(std::min(order + 1, scene_.order));
       prove(deputies, predicted, entry);
       constexpr double clear = 30;  // of the rounding, for differences of misses
-      if (!entry.is_at_limit && entry.miss_m > clear * result_.flight_floor_m) {
+      if (!entry.is_at_limit && !entry.is_at_wall &&
+          entry.miss_m > clear * result_.flight_floor_m) {
         entry.limit = reach_limit(deputies, order, entry.proved_m / metres_ * worst_.direction,
                                   result_.coordinates, names);
       }
@@ -252,15 +257,25 @@ class ValidityStudy {
     return worst;
   }
 
+  /// Whether the miss jumps between a separation that holds and one that does not: a few deputies
+  /// escape, fall or leave the chart there, and no power of the separation describes the others.
+  static bool is_wall(double good, double good_miss, double bad, double bad_miss) {
+    constexpr double steepest_law = 30;  // degree; orders end at 10 or so
+    return !(bad_miss <= good_miss * std::pow(bad / good, steepest_law));
+  }
+
   /// The miss grows as the separation to the power order + 1: from the prediction on, the next
   /// separation tried is the one at which that law meets the tolerance, until the largest that
   /// holds is known to a few percent. Then worse deputies are looked for there; while there are
-  /// such beyond the tolerance, the same begins anew with them.
+  /// such beyond the tolerance, the same begins anew with them. The few deputies at a wall are not
+  /// found by a search, so that the separation told keeps clear of it.
   void prove(FlownDeputies& deputies, double predicted, ValidityEntry& entry) {
     constexpr int most_trials = 40;
     constexpr double close = 1.03;
+    constexpr double clear_of_wall = 0.95;
     double good = 0;
     double bad = 0;
+    double bad_miss = 0;
     double trial = predicted;
     std::vector<FlownDeputies::Worst> good_misses;
     for (int k = 0; k < most_trials; ++k) {
@@ -270,18 +285,21 @@ class ValidityStudy {
         good_misses = misses_;
       } else {
         bad = trial;
+        bad_miss = found;
       }
       double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
       const bool is_at_limit = good >= largest_separation_;
       if (good > 0 && (is_at_limit || (bad > 0 && bad < close * good))) {
         worst_ = worst_at(deputies, entry.order, good, good_misses);
         if (worst_.miss <= tolerance_) {
-          entry.proved_m = good * metres_;
-          entry.miss_m = worst_.miss * metres_;
           entry.is_at_limit = is_at_limit;
+          entry.is_at_wall = !is_at_limit && is_wall(good, worst_.miss, bad, bad_miss);
+          entry.proved_m = (entry.is_at_wall ? clear_of_wall : 1) * good * metres_;
+          entry.miss_m = worst_.miss * metres_;
           return;
         }
         trial = bad = good;
+        bad_miss = worst_.miss;
         good = 0;
         factor = std::pow(tolerance_ / worst_.miss, 1.0 / (entry.order + 1));
       }

@@ -1,0 +1,190 @@
+#include "study_description.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "../studies/arcs.hpp"
+#include "../studies/bounded/bounded_formation.hpp"
+#include "../studies/bounded/event_study.hpp"
+#include "../studies/bounded/frozen_orbit_study.hpp"
+#include "../studies/formation/deputy_motion.hpp"
+#include "../studies/uncertainty/uncertainty.hpp"
+#include "../text/scene_message.hpp"
+#include "bounded/bounded_report.hpp"
+#include "bounded/event_report.hpp"
+#include "bounded/frozen_orbit_report.hpp"
+#include "formation/deputy_motion_report.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/report/relative_motion_report.hpp"
+#include "uncertainty/uncertainty_report.hpp"
+
+namespace hamjet::io {
+namespace {
+
+/// Whether a scene has a table, by the member that holds it.
+template <auto member>
+bool has(const Scene& scene) {
+  return (scene.*member).has_value();
+}
+
+/// A study and then its report.
+template <auto study, auto report>
+StudyReport done(const Scene& scene, const StudyWork& work) {
+  return report(study(scene, work.progress), work.origin);
+}
+
+StudyReport uncertainty_done(const Scene& scene, const StudyWork& work) {
+  return uncertainty_report(study_uncertainty(scene, work.progress, work.threads), work.origin);
+}
+
+TransferResult transfers_of(const Scene& scene, const ProgressCallback& progress) {
+  return study_transfer(scene, progress);
+}
+
+bool is_zero(const RelativeState& state) {
+  return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
+}
+
+/// An assignment may have a table [transfer] with no places in it.
+std::string lack_of_transfer(const Scene& scene) {
+  const bool has_end = !scene.transfer->end.is_along_axes() || !is_zero(scene.transfer->end);
+  if (!scene.assignment || !is_zero(scene.transfer->start) || has_end) return "";
+  return "transfer.start: missing, must be a table with position_m, as must transfer.end; "
+         "`hamjet assign` works on this scene's deputies and slots";
+}
+
+constexpr StudyDescription descriptions[] = {
+    {.command = "motion",
+     .purpose = "where the deputy goes relative to its chief, and by how much it is wrong",
+     .files = "report.html, motion.csv and summary.json",
+     .example = "where the second satellite goes; a report",
+     .table = "deputy",
+     .smallest = "position_m = [0, -1000, 0]",
+     .has_table = &has<&Scene::deputy>,
+     .report = &done<&study_deputy_motion, &deputy_motion_report>,
+     .notes_escape = true},
+    {.command = "transfer",
+     .purpose = "velocity changes from one relative position to another, for every time",
+     .files = "report.html, figure.svg, transfers.csv, further CSV files and summary.json",
+     .example = "velocity changes between relative positions; a report",
+     .table = "transfer",
+     .smallest = "times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
+                 "end = {position_m = [0, -100, 0]}",
+     .has_table = &has<&Scene::transfer>,
+     .report = &done<&transfers_of, &flown_transfer_report>,
+     .notes_escape = true,
+     .lack = &lack_of_transfer},
+    {.command = "validity",
+     .purpose = "how far from the chief the polynomials are right, along time",
+     .files = "report.html, validity.csv and summary.json",
+     .example = "how far from the chief the polynomials are right",
+     .table = "validity",
+     .smallest = "tolerance_m = 1, count = 12",
+     .has_table = &has<&Scene::validity>,
+     .report = &done<&study_validity, &validity_report>},
+    {.command = "uncertainty",
+     .purpose = "how the covariance of the start grows: moments of every order along time",
+     .files = "report.html, moments.csv and summary.json",
+     .example = "how a covariance grows, to every order; a report",
+     .table = "uncertainty",
+     .smallest = "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]",
+     .has_table = &has<&Scene::uncertainty>,
+     .report = &uncertainty_done},
+    {.command = "assign",
+     .purpose = "send deputies to slots at the least total velocity change",
+     .files = "assignment.csv, costs.csv, pairs.csv and summary.json",
+     .example = "deputies to slots at the least total velocity change",
+     .table = "assignment",
+     .smallest = "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]",
+     .has_table = &has<&Scene::assignment>,
+     .report = &done<&study_assignment, &assignment_report>,
+     .notes_escape = true},
+    {.command = "poincare",
+     .purpose = "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
+                "[event] as polynomials",
+     .files = "report.html, poincare.csv (with [event]: event.csv, event-map.csv) and summary.json",
+     .example = "the frozen orbit, and what turns about it",
+     .table = "event",
+     .smallest = "surface = \"equator\"",
+     .has_table = &has<&Scene::event>,
+     .report = &done<&study_event, &event_report>},
+    {.command = "poincare",
+     .has_table = [](const Scene&) { return true; },
+     .report = &done<&study_frozen_orbit, &frozen_orbit_report>},
+    {.command = "bounded",
+     .purpose = "deputies that stay with the chief for long without fuel",
+     .files = "report.html, bounded.csv, box.csv of a box, summary.json",
+     .example = "deputies that stay for months without fuel; a report",
+     .table = "bounded",
+     .smallest = "sizes_km = [1, 10]",
+     .has_table = &has<&Scene::bounded>,
+     .report = &done<&study_bounded, &bounded_report>},
+};
+
+}  // namespace
+
+std::span<const StudyDescription> study_descriptions() { return descriptions; }
+
+std::vector<std::string_view> study_commands() {
+  std::vector<std::string_view> commands;
+  for (const StudyDescription& study : descriptions) {
+    if (commands.empty() || commands.back() != study.command) commands.push_back(study.command);
+  }
+  return commands;
+}
+
+const StudyDescription& first_study_of(std::string_view command) {
+  return *std::find_if(std::begin(descriptions), std::end(descriptions),
+                       [&](const StudyDescription& study) { return study.command == command; });
+}
+
+const StudyDescription& study_of_command(std::string_view command, const Scene& scene) {
+  const StudyDescription* found = &first_study_of(command);
+  for (const StudyDescription& study : descriptions) {
+    if (study.command != command) continue;
+    found = &study;
+    if (study.has_table(scene)) break;
+  }
+  return *found;
+}
+
+const StudyDescription& study_of_table(std::string_view table) {
+  return *std::find_if(std::begin(descriptions), std::end(descriptions),
+                       [&](const StudyDescription& study) { return study.table == table; });
+}
+
+std::vector<const StudyDescription*> studies_of(const Scene& scene) {
+  std::vector<const StudyDescription*> studies;
+  for (const StudyDescription& study : descriptions) {
+    const bool has_table = !study.table.empty() && study.has_table(scene);
+    if (has_table && (study.lack == nullptr || study.lack(scene).empty()))
+      studies.push_back(&study);
+  }
+  return studies;
+}
+
+void require_table(const StudyDescription& study, const Scene& scene, const std::string& file) {
+  const std::string name = printable(file, std::string::npos);
+  if (!study.has_table(scene)) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{0}: {1}: missing, must be a table [{1}]; the smallest is {1} = {{{2}}}", name,
+                    study.table, study.smallest));
+  }
+  const std::string lack = study.lack != nullptr ? study.lack(scene) : "";
+  if (!lack.empty()) throw Error(ErrorKind::scene, fmt::format("{}: {}", name, lack));
+}
+
+void require_scene_of(const StudyDescription& study, const Scene& scene, const std::string& file) {
+  try {
+    require_unsplit(scene, fmt::format("hamjet {}", study.command));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::scene) throw;
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: {}", printable(file, std::string::npos), error.what()));
+  }
+  require_table(study, scene, file);
+}
+
+}  // namespace hamjet::io
