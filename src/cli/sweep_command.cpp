@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "../app/processors.hpp"
 #include "../app/refusal.hpp"
 #include "../store/text_file.hpp"
 #include "../sweep/sweep_report.hpp"
+#include "../sweep/sweep_resume.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "process/interruption.hpp"
@@ -77,27 +79,6 @@ std::size_t threads_of(const SweepOptions& options) {
   return usable_processors();
 }
 
-/// The items that are still to be computed: with --resume the items without a row that is whole,
-/// and those that failed for what may have been another machine's, or another moment's, lack of
-/// memory or of a file.
-std::vector<std::size_t> items_to_do(const std::vector<std::size_t>& items,
-                                     const io::SweepDirectory& directory, std::size_t& failed) {
-  std::vector<std::size_t> result;
-  for (const std::size_t item : items) {
-    const auto row = directory.read(item);
-    const auto has_ended_with = [&](ErrorKind kind) {
-      return row->exit_code == static_cast<int>(kind);
-    };
-    if (!row || has_ended_with(ErrorKind::too_large) || has_ended_with(ErrorKind::input_output)) {
-      result.push_back(item);
-    } else if (row->exit_code != 0) {
-      ++failed;
-    }
-    stop_if_interrupted();
-  }
-  return result;
-}
-
 int run_items(const RunOptions& run, const SweepOptions& options, const io::SweepStudy& study) {
   std::optional<Shard> shard;
   if (options.shard) {
@@ -113,7 +94,11 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
   const std::vector<std::size_t> items = shard.value_or(Shard{}).items(study.items.size());
   io::SweepProgress total;
   std::vector<std::size_t> remaining = items;
-  if (options.resume) remaining = items_to_do(items, directory, total.failed);
+  if (options.resume) {
+    io::SweepResume resume = io::resume_sweep(items, directory, stop_if_interrupted);
+    remaining = std::move(resume.remaining);
+    total.failed = resume.failed;
+  }
   const std::size_t earlier = items.size() - remaining.size();
   io::SweepProgress now;
   try {

@@ -5,6 +5,7 @@
 
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
+#include "default_integrator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "scene_sections.hpp"
 

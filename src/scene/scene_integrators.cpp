@@ -13,6 +13,7 @@
 #include "../formats/output_formats.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../text/scene_message.hpp"
+#include "default_integrator.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 #include "scene_sections.hpp"
@@ -21,8 +22,6 @@ namespace hamjet::io {
 namespace {
 
 constexpr std::size_t longest_label = 100;
-
-constexpr double least_extended_tolerance = 1e-30;
 
 /// Names of files that stand beside the integrators' directories in the output, which a label must
 /// not have.
@@ -215,19 +214,6 @@ void refuse_energy_conserving(const TableReader& integrator) {
                               in_quotes(method), listed(method_names()), no_energy_conserving_jet));
 }
 
-/// The label is the name that comparisons give to the series of the method in this form.
-std::string default_label(const IntegratorSettings& settings) {
-  ComparisonSettings wanted;
-  wanted.stages = {settings.stages};
-  const MethodDescription& method = description_of(settings.method);
-  for (const ComparedForm& form : method.compared_forms(wanted)) {
-    IntegratorSettings same_method = form.settings;
-    same_method.method = settings.method;
-    if (compared_values(same_method) == compared_values(settings)) return form.label;
-  }
-  return std::string(method.name);
-}
-
 /// Adds labels to the integrators that have none, with a number if the name is already in use.
 void add_labels(std::vector<IntegratorSettings>& integrators) {
   std::set<std::string> labels;
@@ -283,25 +269,6 @@ std::vector<std::string_view> integrator_keys(IntegrationMethod method) {
   const std::vector<std::string_view> own = own_keys(description_of(method));
   keys.insert(keys.end(), own.begin(), own.end());
   return keys;
-}
-
-IntegratorSettings default_integrator() {
-  IntegratorSettings settings;
-  settings.method = IntegrationMethod::gauss;
-  settings.stages = 8;
-  settings.tolerance = 1e-12;
-  settings.label = default_label(settings);
-  return settings;
-}
-
-const std::string& default_integrator_table() {
-  static const std::string table = [] {
-    const IntegratorSettings settings = default_integrator();
-    return fmt::format(
-        "[[integrator]]\nlabel = \"{}\"\nmethod = \"{}\"\nstages = {}\ntolerance = {:e}\n",
-        settings.label, method_name(settings.method), settings.stages, *settings.tolerance);
-  }();
-  return table;
 }
 
 std::vector<IntegratorSettings> read_integrators(const std::vector<TableReader>& integrators,

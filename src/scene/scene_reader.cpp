@@ -6,6 +6,7 @@
 #include "../formats/output_formats.hpp"
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
+#include "default_integrator.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {

@@ -26,10 +26,6 @@ inline constexpr std::int64_t largest_order = 20;
 /// The largest number of integrators of a scene; all their jets are held until the end.
 inline constexpr std::size_t most_integrators = 1000;
 
-/// The range of tolerances in double precision.
-inline constexpr double least_tolerance = 1e-15;
-inline constexpr double greatest_tolerance = 1e-1;
-
 /// check_keys for a table with keys that belong to orbits only, or to the other models only.
 inline void check_keys_of_model(const TableReader& table, SystemModel model) {
   table.check_keys(is_orbit(model) ? orbits : other_models,
@@ -144,15 +140,6 @@ struct JetSettings {
 /// Table `[jet]`. Throws Error(too_large) for an order above the largest.
 JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Precision precision,
                      const Nominal& nominal);
-
-/// The description, for people, of the integrator of a scene without tables `[[integrator]]`.
-inline constexpr std::string_view default_integrator_text = "Gauss, 8 stages, tolerance 1e-12";
-
-/// The integrator of such a scene: an orbit is expanded to about the tolerance, at every degree.
-IntegratorSettings default_integrator();
-
-/// This integrator as a table `[[integrator]]`, in TOML.
-const std::string& default_integrator_table();
 
 /// The tables `[[integrator]]`; a table without a label is named as comparisons name its series.
 /// Throws Error(too_large) for too many steps.

@@ -3,6 +3,7 @@
 
 #include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
+#include "default_integrator.hpp"
 #include "document/scene_document.hpp"
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
@@ -50,7 +51,7 @@ TableDescription flow_jet_top() {
         {"integrator",
          form::words(fmt::format("1 to {} tables", most_integrators),
                      form::array(form::table(integrator_table()))),
-         absent::other(fmt::format("{}", default_integrator_text)), "how the jet is integrated"},
+         absent::other(default_integrator_text()), "how the jet is integrated"},
         optional_table("formation", formation_table(), none,
                        "residuals are also stated at this deviation"),
         optional_table("generating_function", generating_function_table(), none,

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "circle_transfers.hpp"
-#include "studies/formation/impulses/linear_program.hpp"
+#include "studies/formation/impulses/clp_solver.hpp"
 #include "support/errors.hpp"
 
 // Tests the solver of least impulses and the checks of its answers.

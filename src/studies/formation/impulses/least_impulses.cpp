@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
-#include "directed_impulses.hpp"
 #include "hamjet/error.hpp"
+#include "impulse_program.hpp"
 
 namespace hamjet {
 

@@ -1,4 +1,4 @@
-#include "directed_impulses.hpp"
+#include "impulse_program.hpp"
 
 #include <cmath>
 

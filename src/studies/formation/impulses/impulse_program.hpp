@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "clp_solver.hpp"
 #include "least_impulses.hpp"
-#include "linear_program.hpp"
 
 namespace hamjet {
 

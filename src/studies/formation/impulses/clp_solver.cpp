@@ -1,4 +1,4 @@
-#include "linear_program.hpp"
+#include "clp_solver.hpp"
 
 #include <Clp_C_Interface.h>
 #include <fmt/format.h>
