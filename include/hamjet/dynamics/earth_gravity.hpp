@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hamjet/detail/dynamics/local_field.hpp"
+#include "hamjet/detail/dynamics/time_function.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// A body that disturbs an orbit about another one: the Sun or the Moon.
+struct DisturbingBody {
+  double mu = 0;                                ///< gravitational parameter
+  std::shared_ptr<const LocalField> potential;  ///< mu/r about its own centre
+  std::shared_ptr<const TimeFunction> position;  ///< of its centre from the central body's
+};
+
+/// The gravity that acts on a satellite of a body that turns. All units are the caller's, times
+/// are counted from the caller's epoch.
+struct GravityOfTurningBody {
+  std::shared_ptr<const LocalField> potential;  ///< U, in axes that are fixed to the body
+  std::shared_ptr<const TimeFunction> axes;     ///< R, row after row: from inertial to fixed axes
+  std::vector<DisturbingBody> others;
+};
+
+/// The system in z = (x, y, z, p_x, p_y, p_z), inertial axes about the body's centre, momenta per
+/// unit mass, with
+///
+///   H = |p|^2/2 - U(R(t) q) - sum over the others of mu [1/|q - s(t)| - q . s(t) / |s(t)|^3] .
+///
+/// The last term is the acceleration of the central body, with which the axes move. All potentials
+/// are evaluated along the fixed axes, so that their local polynomials are summed before they are
+/// composed with a series. Source: Montenbruck and Gill, Satellite Orbits, chapter 3. Throws
+/// Error(usage) for a missing part or one of another size.
+DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity);
+
+}  // namespace hamjet
