@@ -12,7 +12,7 @@ std::vector<double> nominal_of(const FlowJet<double>& jet) {
 
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
                                        double duration) {
-  return {system, SeriesSpace::create(1, 0), {0}, start, duration};
+  return {system, SeriesSpace::create(1, 0), {0}, start, ClockTime::epoch(), duration};
 }
 
 std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,

@@ -52,7 +52,7 @@ LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
                      const std::vector<double>& start, double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  FlowProblem<double> flow{problem.system, space, variables, start, duration};
+  FlowProblem<double> flow{problem.system, space, variables, start, problem.start_time, duration};
   // One step of order 1 is cheaper than leaving a symmetry out and putting it back.
   flow.symmetry = FlowSymmetry::none;
   const FlowJet<double> jet = precise_jet(flow);

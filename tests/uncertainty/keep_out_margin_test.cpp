@@ -54,8 +54,7 @@ TEST(KeepOutMargin, IsNoneWhereNothingLeadsThereAndZeroWithin) {
 // at 1e-13, the trust-region problem at 20001 times and at as many about the least, three times; by
 // the linear theory, of which the second order is (0.2 of 1e-6)^2 in distances of 1e-6.
 TEST(KeepOutMargin, IsTheLeastOfManyMinimaThatLooksPassBy) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.to = 31.744323;
   problem.order = 2;
   problem.radius = 1e-6;

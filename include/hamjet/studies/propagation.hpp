@@ -145,6 +145,8 @@ struct ComputedProblem {
   SpacePointer space;
   SharedSystem system;
   std::vector<double> nominal;  ///< nominal of these components
+  /// The system's clock at the nominal; a problem about a later state sets both.
+  ClockTime start_time = ClockTime::epoch();
   bool is_full_jet =
       false;  ///< whether the jet is expanded in all components, and thus a map of phase space
   FlowSymmetry symmetry =

@@ -325,12 +325,13 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);
-  EventStudy study{scene,
-                   event_map<double>(make_system(scene), chief, *near, scene.order,
-                                     scene_gauss(scene, most_event_tolerance), condition),
-                   0,
-                   flown_deputies,
-                   {}};
+  EventStudy study{
+      scene,
+      event_map<double>(make_system(scene), chief, ClockTime::epoch(), *near, scene.order,
+                        scene_gauss(scene, most_event_tolerance), condition),
+      0,
+      flown_deputies,
+      {}};
   const EventFlights flights(scene, condition, study.map);
   const std::vector<double>& amplitudes = scene.event->amplitudes_m;
   for (std::size_t k = 0; k < amplitudes.size(); ++k) {

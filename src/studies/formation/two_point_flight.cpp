@@ -20,8 +20,8 @@ FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>
                            double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> problem{system, SeriesSpace::create(start.size(), 1), variables, start,
-                                    duration};
+  const FlowProblem<double> problem{
+      system, SeriesSpace::create(start.size(), 1), variables, start, ClockTime::epoch(), duration};
   GaussSettings settings;
   settings.tolerance = 1e-12;
   IntegrationStatistics statistics;
