@@ -106,7 +106,9 @@ std::vector<double> SingleTransfer::deputy(const std::vector<double>& initial_mo
 }
 
 std::vector<double> SingleTransfer::fly(const std::vector<double>& initial_momentum) const {
-  return state_difference(exact_flow(problem_.system, deputy(initial_momentum), time_), chief_end_);
+  return state_difference(
+      exact_flow(problem_.system, deputy(initial_momentum), problem_.start_time, time_),
+      chief_end_);
 }
 
 double SingleTransfer::miss_m(const std::vector<double>& flown) const {
