@@ -18,6 +18,7 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.precision = scene.precision;
   description.units = scene.units;
   description.duration = scene.duration;
+  description.start_time = scene.start_time;
   description.nominal_initial = scene.nominal;
   description.nominal_final = run.nominal_final;
   description.components = result.problem.components;

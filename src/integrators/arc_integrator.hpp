@@ -81,12 +81,13 @@ FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   return result;
 }
 
-/// The problem of an arc that starts from a checkpoint's state.
+/// The problem of an arc that starts from a checkpoint's state. Its steps go on counting their time
+/// from the start of the whole, so that its start time is that of the whole.
 template <class Real>
 FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
                               const SpacePointer& space, const std::vector<std::size_t>& variables,
                               const FlowJet<Real>& start) {
-  return {whole.system, space, variables, state, whole.duration, start};
+  return {whole.system, space, variables, state, whole.start_time, whole.duration, start};
 }
 
 }  // namespace hamjet

@@ -49,10 +49,11 @@ FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
 }
 
 LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
-                     const std::vector<double>& start, double duration) {
+                     const std::vector<double>& start, const ClockTime& start_time,
+                     double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  FlowProblem<double> flow{problem.system, space, variables, start, duration};
+  FlowProblem<double> flow{problem.system, space, variables, start, start_time, duration};
   // One step of order 1 is cheaper than leaving a symmetry out and putting it back.
   flow.symmetry = FlowSymmetry::none;
   const FlowJet<double> jet = precise_jet(flow);
@@ -82,7 +83,8 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
     const double left = std::abs(duration - times_.back());
     const double time =
         left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem, space_, states_.back(), time - times_.back());
+    LinearArc arc = linear_arc(problem, space_, states_.back(), problem.start_time + times_.back(),
+                               time - times_.back());
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
@@ -129,14 +131,16 @@ std::size_t LinearFlow::checkpoint_before(double time) const {
 
 std::vector<double> LinearFlow::nominal(double time) const {
   const std::size_t before = checkpoint_before(time);
-  return exact_flow(problem_->system, states_[before], time - times_[before]);
+  return exact_flow(problem_->system, states_[before], problem_->start_time + times_[before],
+                    time - times_[before]);
 }
 
 LinearFlow::StateTransition LinearFlow::at(double time) const {
   const std::size_t before = checkpoint_before(time);
   if (time == times_[before]) return matrices_[before];
-  return linear_arc(*problem_, space_, states_[before], time - times_[before]).matrix *
-         matrices_[before];
+  const LinearArc arc = linear_arc(*problem_, space_, states_[before],
+                                   problem_->start_time + times_[before], time - times_[before]);
+  return arc.matrix * matrices_[before];
 }
 
 }  // namespace hamjet

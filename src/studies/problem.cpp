@@ -150,6 +150,7 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   problem.components = problem.degrees_of_freedom;
   for (const std::size_t i : problem.degrees_of_freedom) problem.components.push_back(n + i);
   for (const std::size_t c : problem.components) problem.nominal.push_back(scene.nominal[c]);
+  problem.start_time = scene.start_time;
   for (const std::size_t v : scene.variables) {
     const auto place = std::find(problem.components.begin(), problem.components.end(), v);
     problem.variables.push_back(

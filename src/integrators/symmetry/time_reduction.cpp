@@ -124,13 +124,16 @@ template <class Real>
 TimeReduction<Real>::TimeReduction(const FlowProblem<Real>& problem,
                                    const std::optional<LeftOutRotation>& rotation,
                                    std::size_t left_out)
-    : system_(problem.system), space_(problem.space), left_out_(left_out), rotation_(rotation) {
+    : system_(problem.system),
+      space_(problem.space),
+      left_out_(left_out),
+      rotation_(rotation),
+      reduced_(problem) {
   set_reduced_problem(problem);
 }
 
 template <class Real>
 void TimeReduction<Real>::set_reduced_problem(const FlowProblem<Real>& problem) {
-  reduced_ = problem;
   reduced_.symmetry = FlowSymmetry::none;
   reduced_.space = SeriesSpace::create(space_->variables() - 1, space_->order());
   reduced_.variables.erase(reduced_.variables.begin() + static_cast<std::ptrdiff_t>(left_out_));

@@ -32,7 +32,7 @@ FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);
   FlightOutcome outcome;
-  fly_arcs(system, {flight.start}, 0, flight.time, [&](const FlightArc& arc) {
+  fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
     const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
@@ -71,12 +71,12 @@ void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& wo
 }  // namespace
 
 std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy) {
-  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, time}};
+  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, scene.start_time, time}};
   if (with_deputy && scene.deputy) {
     const std::vector<double> deviation =
         ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
             .deviation(scene.deputy->start);
-    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), time});
+    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), scene.start_time, time});
   }
   return flights;
 }
@@ -88,11 +88,11 @@ std::optional<double> surface_limit(const Scene& scene) {
 }
 
 LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start,
-                         double time) {
+                         const ClockTime& start_time, double time) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
   LowestPoint lowest;
   try {
-    fly_arcs(system, {start}, 0, time,
+    fly_arcs(system, {start}, start_time, time,
              [&](const FlightArc& arc) { least.add(arc, place_along(arc, 0)); });
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;

@@ -261,7 +261,8 @@ void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& poin
   const MetricUnits units = metric_units(scene_);
   const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
   point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
-  point.drift = relative_drift(scene_, chief, end, settings_.frame, finds_holding);
+  point.drift = relative_drift(scene_, chief, end, problem_.start_time + point.time,
+                               settings_.frame, finds_holding);
 }
 
 void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
@@ -278,12 +279,13 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
       ChiefFrame(problem_.nominal, metric_units(scene_), settings_.frame).deviation(start);
   if (surface) {
     const std::vector<double> deputy = state_sum(problem_.nominal, deviation);
-    point.lowest = lowest_point(problem_.system, deputy, point.time).distance;
+    point.lowest = lowest_point(problem_.system, deputy, problem_.start_time, point.time).distance;
     point.is_below_surface = *point.lowest < *surface;
   }
   // A trajectory through the centre need not be examined further.
   if (settings_.keep_out_m && point.lowest != 0.0) {
-    point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
+    point.keep_out_ratio =
+        keep_out_ratio(scene_, problem_.nominal, deviation, problem_.start_time, point.time);
   }
 }
 
@@ -344,7 +346,7 @@ double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {
 const std::vector<double>& TransferPoints::flown_chief(double time) {
   if (flown_chief_.empty() || time != chief_time_) {
     const Stopwatch watch(seconds_.proof);
-    flown_chief_ = exact_flow(problem_.system, problem_.nominal, time);
+    flown_chief_ = exact_flow(problem_.system, problem_.nominal, problem_.start_time, time);
     chief_time_ = time;
   }
   return flown_chief_;

@@ -30,9 +30,10 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   StepCondition<double> condition(system, study.method);
   try {
     // One flow leads to the stop; the secant method evaluates only its neighbourhood.
-    const std::vector<double> at_stop = exact_flow(system, study.nominal, stop.time);
+    const std::vector<double> at_stop =
+        exact_flow(system, study.nominal, ClockTime::epoch(), stop.time);
     const auto value = [&](double time) {
-      return condition(exact_flow(system, at_stop, time - stop.time));
+      return condition(exact_flow(system, at_stop, ClockTime(stop.time), time - stop.time));
     };
     double before = stop.time;
     double time = stop.time + *stop.steps_to_sign_change * last_step;

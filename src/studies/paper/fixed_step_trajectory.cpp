@@ -22,7 +22,8 @@ FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
   result.method = is_verlet ? "velocity Verlet" : "midpoint rule";
   result.step = step;
   const double duration = std::clamp(end, -most_steps * step, most_steps * step);
-  const FlowProblem<double> problem = trajectory_problem(system, start, duration);
+  const FlowProblem<double> problem =
+      trajectory_problem(system, start, ClockTime::epoch(), duration);
   EnergyError energy(system, start);
   ThinnedList<std::pair<double, double>> errors;
   errors.add({0, 0});

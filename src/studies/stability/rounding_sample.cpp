@@ -152,7 +152,7 @@ class LocalJets {
  private:
   FlowProblem<double> problem_at(const VectorXd& point, const SpacePointer& space,
                                  double duration) const {
-    FlowProblem<double> problem{system_, space, variables_, {}, duration};
+    FlowProblem<double> problem{system_, space, variables_, {}, ClockTime::epoch(), duration};
     problem.initial_state.assign(point.begin(), point.end());
     return problem;
   }

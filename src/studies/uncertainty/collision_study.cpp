@@ -62,7 +62,7 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
           problem.spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
       states.insert(states.end(), start.begin(), start.end());
     }
-    flow.advance(states, times);
+    flow.advance(states, problem.start_time, times);
     for (std::size_t k = 0; k < deviations.size(); ++k) {
       for (std::size_t i = 0; i < 6; ++i) {
         result[k][i] += (craft == 0 ? -1 : 1) * states[6 * k + i];
