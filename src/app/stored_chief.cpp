@@ -38,6 +38,10 @@ bool is_about_chief(const io::StoredJet& stored, const Scene& scene) {
   if (stored.model != scene.system.model || !are_same(stored.units, told_units(scene))) {
     return false;
   }
+  const double start_s = stored.start_time.in<double>() * stored.units.time_s;
+  const double scene_start_s = scene.start_time.in<double>() * scene.units.time_s;
+  constexpr double rounding = 1e-14;
+  if (!(std::abs(start_s - scene_start_s) <= rounding * std::abs(start_s))) return false;
   if (are_same(stored.units, scene.units)) return stored.nominal_initial == scene.nominal;
   return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial);
 }

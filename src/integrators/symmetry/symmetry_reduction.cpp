@@ -1,6 +1,7 @@
 #include "symmetry_reduction.hpp"
 
 #include "../../algebra/instantiated_real.hpp"
+#include "../../dynamics/autonomy.hpp"
 
 namespace hamjet {
 
@@ -13,7 +14,7 @@ std::optional<SymmetryReduction<Real>> SymmetryReduction<Real>::of(
   }
   SymmetryReduction result;
   result.rotation_ = RotationReduction<Real>::of(problem);
-  if (has_time_shift(problem.symmetry)) {
+  if (has_time_shift(problem.symmetry) && is_autonomous(*problem.system)) {
     std::optional<LeftOutRotation> rotation;
     if (result.rotation_) rotation = result.rotation_->left_out();
     result.time_ =

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/single_transfer.hpp"
@@ -122,10 +123,15 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     surface.limit.reset();
     surface.text = "the model has no radius";
   }
+  const SharedSystem system = make_system(scene);
+  if (energy.state != SelfCheckState::off && !is_autonomous(*system)) {
+    energy.state = SelfCheckState::not_applicable;
+    energy.limit.reset();
+    energy.text = "the forces depend on the time, so that no energy is kept";
+  }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
   if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
   const Stopwatch watch(energy.seconds);
-  const SharedSystem system = make_system(scene);
   const CheckedFlight* leaving = &flights.front();
   const CheckedFlight* falling = &flights.front();
   double change = 0;
