@@ -7,12 +7,14 @@
 #include <vector>
 
 #include "hamjet/detail/dynamics/zonal_coefficients.hpp"
+#include "hamjet/detail/studies/earth_settings.hpp"
 #include "hamjet/detail/studies/fields.hpp"
 
 namespace hamjet {
 
 /// The models of the dynamics. SystemDescription describes their differences.
 enum class SystemModel {
+  earth,
   zonal_gravity,
   kepler,
   harmonic_oscillator,
@@ -56,9 +58,12 @@ struct GravityFile {
 /// Table `[system]`.
 struct SystemSettings {
   SystemModel model = SystemModel::zonal_gravity;
-  double mu_km3_s2 = 0;  ///< zonal-gravity, kepler: gravitational parameter
-  double radius_km = 0;  ///< zonal-gravity: the reference radius of the J_n; 0 if there are none
-  ZonalCoefficients J;   ///< zonal-gravity: 0 for a coefficient that the scene does not have
+  double mu_km3_s2 = 0;  ///< earth, zonal-gravity, kepler: gravitational parameter
+  /// earth, zonal-gravity: the reference radius of the coefficients; 0 if there are none
+  double radius_km = 0;
+  /// zonal-gravity: 0 for a coefficient that the scene does not have. earth: those of its field, for
+  /// what is told of mean motions.
+  ZonalCoefficients J;
   double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
   double stiffness_N_per_m = 1;         ///< models with a mass; for a pair, of the first oscillator
   double second_stiffness_N_per_m = 1;  ///< oscillator-pair: stiffness of the second oscillator
@@ -66,15 +71,16 @@ struct SystemSettings {
   double gravity_m_s2 = 0;              ///< spring-pendulum: acceleration toward negative q2
   double omega_rad_per_s = 0;           ///< fermi-pasta-ulam: frequency of the stiff springs
   std::size_t pairs = 1;                ///< fermi-pasta-ulam: number of stiff springs
-  /// zonal-gravity: the file from which mu, radius and J were read.
+  /// earth, zonal-gravity: the file from which mu, radius and coefficients were read.
   std::optional<GravityFile> gravity_file;
   std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
+  std::optional<EarthSettings> earth;      ///< earth
 };
 
 HAMJET_FIELDS(GravityFile, file, model_name, tide_system, epoch, origin_offset_m)
 HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness_N_per_m,
               second_stiffness_N_per_m, length_m, gravity_m_s2, omega_rad_per_s, pairs,
-              gravity_file, own_degrees_of_freedom)
+              gravity_file, own_degrees_of_freedom, earth)
 
 /// The number of degrees of freedom of a system.
 std::size_t degrees_of_freedom_of(const SystemSettings& settings);
