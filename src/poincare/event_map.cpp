@@ -155,7 +155,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
 }
 
 template EventMap<InstantiatedReal> event_map(const DynamicalSystem&,
-                                              const SixNumbers<InstantiatedReal>&,
+                                              const SixNumbers<InstantiatedReal>&, const ClockTime&,
                                               const InstantiatedReal&, int, const GaussSettings&,
                                               const EventCondition<InstantiatedReal>&);
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 

@@ -27,15 +27,17 @@ struct FlightOutcome {
 
 FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  EnergyError energy(*system, flight.start);
+  EnergyError energy(*system, flight.start, flight.start_time);
   // If terms cancel, their sum is no scale for the change.
-  energy.value(extended(flight.start));
+  energy.value(extended(flight.start), flight.start_time);
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);
   FlightOutcome outcome;
   fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
-    const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
+    const Extended change =
+        energy.value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
+        energy.initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
     if (!(size <= outcome.energy_change)) outcome.energy_change = size;
   });

@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../descriptions/method_description.hpp"
 #include "../integration.hpp"
 #include "../thinned_list.hpp"
@@ -145,7 +146,8 @@ class LocalJets {
 
   FieldValue field(const VectorXd& point, double time) const {
     const auto identity = starting_jet(problem_at(point, time, linear_space_, 0));
-    const auto jet = evaluate_on_series<double>(system_->vector_field, identity);
+    const auto jet =
+        evaluate_on_series<double>(frozen_at(system_->vector_field, start_time_ + time), identity);
     FieldValue value{VectorXd(index(jet.size())), linear_part(jet)};
     for (std::size_t i = 0; i < jet.size(); ++i) value.slope(index(i)) = jet[i][0];
     return value;
