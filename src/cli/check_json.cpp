@@ -7,6 +7,7 @@
 
 #include "../formats/relative_frame_text.hpp"
 #include "../report/formation/drift_view.hpp"
+#include "../report/propagation/force_table.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../report/study_description.hpp"
 #include "../scene/system_json.hpp"
@@ -14,6 +15,7 @@
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/checks/force_sizes.hpp"
 #include "../studies/flights/relative_drift.hpp"
 #include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/message_place.hpp"
@@ -80,6 +82,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
     json["integrators"].push_back(integrator);
   }
   json["mean_elements"] = mean_elements_json(scene);
+  if (scene.system.earth) json.update(io::table_json(io::force_table(force_sizes(scene))));
   json["deputy"] = nullptr;
   if (scene.deputy) {
     const auto array = [](const Eigen::Vector3d& v) { return Json{v[0], v[1], v[2]}; };

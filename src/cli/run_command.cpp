@@ -12,10 +12,12 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../report/formation/drift_view.hpp"
 #include "../report/paper/paper_reports.hpp"
+#include "../report/propagation/force_table.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../report/study_description.hpp"
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
+#include "../studies/checks/force_sizes.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
 #include "../studies/flights/relative_drift.hpp"
@@ -159,7 +161,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
       io::printable(file, std::string::npos), scene.title, scene.units.length_km,
       scene.units.time_s);
   for (const double x : scene.nominal) text += fmt::format(" {:.17g}", x);
-  text += "\n" + field_text(scene.system);
+  text += "\n" + field_text(scene.system) + io::force_text(scene, force_sizes(scene));
   if (const auto orbit = io::orbit_summary(scene)) text += io::orbit_text(*orbit);
   text += fmt::format(
       "  duration     {:.17g} canonical = {:.10g} s\n"

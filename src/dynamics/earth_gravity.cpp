@@ -24,18 +24,20 @@ Expression dot(std::span<const Expression> a, std::span<const Expression> b) {
 }
 
 void require(bool is_right, const char* problem) {
-  if (!is_right) throw Error(ErrorKind::usage, std::string("gravity of a turning body: ") + problem);
+  if (!is_right)
+    throw Error(ErrorKind::usage, std::string("gravity of a turning body: ") + problem);
 }
 
 }  // namespace
 
 DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
-  require(gravity.potential != nullptr && gravity.axes != nullptr && gravity.axes->components() == 9,
-          "needs a potential and the nine components of its axes");
+  require(
+      gravity.potential != nullptr && gravity.axes != nullptr && gravity.axes->components() == 9,
+      "needs a potential and the nine components of its axes");
   for (const DisturbingBody& body : gravity.others) {
-    require(body.potential != nullptr && body.position != nullptr &&
-                body.position->components() == 3,
-            "a disturbing body needs a potential and the three components of its position");
+    require(
+        body.potential != nullptr && body.position != nullptr && body.position->components() == 3,
+        "a disturbing body needs a potential and the three components of its position");
   }
   const auto hamiltonian = [&gravity](std::span<const Expression> q, std::span<const Expression> p,
                                       const Expression& t) {
@@ -46,8 +48,8 @@ DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
     for (const DisturbingBody& body : gravity.others) {
       const std::vector<Expression> s = time_values(body.position, t);
       const Vector3 place = turned(axes, s);
-      potential += field_value(
-          body.potential, {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
+      potential += field_value(body.potential,
+                               {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
       others -= Expression(body.mu) * pow(dot(s, s), Expression(-1.5)) * dot(q, s);
     }
     return dot(p, p) / 2 - potential - others;

@@ -48,17 +48,16 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   const double first = convert<double>(Extended(earth.first_s) / time_s);
   const double last = convert<double>(Extended(earth.last_s) / time_s);
   GravityOfTurningBody gravity;
-  gravity.potential = std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius,
-                                                                     coefficients_of(earth));
+  gravity.potential =
+      std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, coefficients_of(earth));
   gravity.axes =
       std::make_shared<const EarthRotation>(epoch, time_s, first, last, orientation_of(earth));
   const auto add = [&](bool acts, PerturbingBody body, double mu_km3_s2) {
     if (!acts) return;
     const double mu = mu_km3_s2 / settings.mu_km3_s2;
-    gravity.others.push_back(
-        {mu, std::make_shared<const PointMassField>(mu),
-         std::make_shared<const BodyPosition>(body, epoch, time_s, convert<double>(length_km),
-                                              first, last)});
+    gravity.others.push_back({mu, std::make_shared<const PointMassField>(mu),
+                              std::make_shared<const BodyPosition>(
+                                  body, epoch, time_s, convert<double>(length_km), first, last)});
   };
   add(earth.has_sun, PerturbingBody::sun, earth.mu_sun_km3_s2);
   add(earth.has_moon, PerturbingBody::moon, earth.mu_moon_km3_s2);

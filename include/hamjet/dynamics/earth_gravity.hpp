@@ -11,8 +11,8 @@ namespace hamjet {
 
 /// A body that disturbs an orbit about another one: the Sun or the Moon.
 struct DisturbingBody {
-  double mu = 0;                                ///< gravitational parameter
-  std::shared_ptr<const LocalField> potential;  ///< mu/r about its own centre
+  double mu = 0;                                 ///< gravitational parameter
+  std::shared_ptr<const LocalField> potential;   ///< mu/r about its own centre
   std::shared_ptr<const TimeFunction> position;  ///< of its centre from the central body's
 };
 

@@ -1,0 +1,47 @@
+#include "force_table.hpp"
+
+#include <fmt/format.h>
+
+#include "../../store/result_table.hpp"
+#include "../../text/quantity_text.hpp"
+#include "hamjet/astronomy/earth_orientation.hpp"
+
+namespace hamjet::io {
+
+TableView force_table(const std::vector<ForceSize>& forces) {
+  ResultTable<ForceSize> table("forces", "/forces", {"forces"},
+                               "How large each force of the real Earth is along the chief's orbit, "
+                               "and what leaving it out changes.");
+  table.add("force", "", "what is left out", &ForceSize::name);
+  table.add("key", "", "of `[system]`, which leaves it out", &ForceSize::key);
+  table.add("largest_m_s2", "m/s^2", "its largest acceleration along the chief's orbit",
+            &ForceSize::largest_m_s2);
+  table.add("chief_m", "m", "by how much the chief's position changes without it, at most",
+            &ForceSize::chief_m);
+  table.add("relative_m", "m",
+            "by how much the deputy's position relative to the chief changes, at most",
+            &ForceSize::relative_m);
+  return std::move(table).view(forces, {forces.size()});
+}
+
+std::string force_text(const Scene& scene, const std::vector<ForceSize>& forces) {
+  if (!scene.system.earth) return "";
+  const EarthSettings& earth = *scene.system.earth;
+  std::string text = fmt::format("  forces       the Earth's field to {} x {}{}{}; epoch {} TT\n",
+                                 earth.degree, earth.order, earth.has_sun ? ", Sun" : "",
+                                 earth.has_moon ? ", Moon" : "", earth.epoch_tt);
+  if (earth.orientation_file.empty()) {
+    text += fmt::format("               {}\n", EarthOrientation::without_table());
+  }
+  if (forces.empty()) return text;
+  text += fmt::format("  left out     {:24} {:>14}  {:>12}  {:>14}\n", "", "largest m/s^2", "chief",
+                      scene.deputy ? "deputy - chief" : "");
+  for (const ForceSize& force : forces) {
+    text += fmt::format("               {:24} {:14.2e}  {:>12}  {:>14}  ({})\n", force.name,
+                        force.largest_m_s2, length_text(force.chief_m),
+                        force.relative_m ? length_text(*force.relative_m) : "", force.key);
+  }
+  return text;
+}
+
+}  // namespace hamjet::io

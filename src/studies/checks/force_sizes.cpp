@@ -1,0 +1,148 @@
+#include "force_sizes.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "../../algebra/state_sums.hpp"
+#include "../exact_flow.hpp"
+#include "../formation/single_transfer.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/propagation.hpp"
+
+namespace hamjet {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Orbits are compared at so many times, and at least so many a revolution.
+constexpr int least_times = 48;
+constexpr int times_a_revolution = 8;
+constexpr int most_times = 2000;
+
+Vector3d place_of(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
+
+/// States along time, from the start on.
+using Orbit = std::vector<std::vector<double>>;
+
+Orbit fly(const SharedSystem& system, std::vector<double> state, const ClockTime& start,
+          const std::vector<double>& times) {
+  Orbit orbit = {state};
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    state = exact_flow(system, state, start + times[k - 1], times[k] - times[k - 1]);
+    orbit.push_back(state);
+  }
+  return orbit;
+}
+
+std::vector<double> looks(const Scene& scene) {
+  const std::vector<double>& z = scene.nominal;
+  const Vector3d velocity(z[3], z[4], z[5]);
+  const double inverse_axis = 2 / place_of(z).norm() - velocity.squaredNorm();
+  const double turns = inverse_axis > 0 ? std::abs(scene.duration) * std::pow(inverse_axis, 1.5) /
+                                              (2 * std::numbers::pi)
+                                        : 0;
+  const int count = static_cast<int>(std::clamp(std::ceil(turns * times_a_revolution),
+                                                static_cast<double>(least_times),
+                                                static_cast<double>(most_times)));
+  std::vector<double> times;
+  for (int k = 0; k <= count; ++k) times.push_back(scene.duration * k / count);
+  return times;
+}
+
+/// Accelerations of a system along an orbit.
+std::vector<Vector3d> accelerations(const DynamicalSystem& system, const Orbit& orbit,
+                                    const ClockTime& start, const std::vector<double>& times) {
+  DifferentiableFunction<double> field(system.vector_field);
+  std::vector<Vector3d> result;
+  for (std::size_t k = 0; k < orbit.size(); ++k) {
+    if (field.has_time()) {
+      field.evaluate(orbit[k], (start + times[k]).in<double>());
+    } else {
+      field.evaluate(orbit[k]);
+    }
+    result.emplace_back(field.value(3), field.value(4), field.value(5));
+  }
+  return result;
+}
+
+/// A scene with one force left out.
+struct Without {
+  std::string name;
+  std::string key;
+  std::function<void(EarthSettings&)> leave_out;
+};
+
+std::vector<Without> forces_of(const EarthSettings& earth) {
+  std::vector<Without> forces;
+  const auto truncated = [](int degree) {
+    return [degree](EarthSettings& settings) {
+      settings.degree = std::min(settings.degree, degree);
+      settings.order = std::min(settings.order, degree);
+    };
+  };
+  if (earth.order > 0) {
+    forces.push_back(
+        {"tesseral harmonics", "order = 0", [](EarthSettings& settings) { settings.order = 0; }});
+  }
+  for (const int degree : {2, 8, 20, 36, 70}) {
+    if (earth.degree <= degree) continue;
+    forces.push_back({"harmonics above " + std::to_string(degree),
+                      "degree = " + std::to_string(degree), truncated(degree)});
+  }
+  if (earth.has_sun) {
+    forces.push_back({"Sun", "sun = false", [](EarthSettings& s) { s.has_sun = false; }});
+  }
+  if (earth.has_moon) {
+    forces.push_back({"Moon", "moon = false", [](EarthSettings& s) { s.has_moon = false; }});
+  }
+  return forces;
+}
+
+}  // namespace
+
+std::vector<ForceSize> force_sizes(const Scene& scene) {
+  std::vector<ForceSize> sizes;
+  if (!scene.system.earth) return sizes;
+  const MetricUnits units = metric_units(scene);
+  const std::vector<double> times = looks(scene);
+  std::optional<std::vector<double>> deputy;
+  if (scene.deputy) {
+    const ChiefFrame frame(scene.nominal, units, scene.deputy->frame);
+    deputy = state_sum(scene.nominal, frame.deviation(scene.deputy->start));
+  }
+  const auto fly_from = [&](const SharedSystem& system, const std::vector<double>& state) {
+    return fly(system, state, scene.start_time, times);
+  };
+  const SharedSystem all = make_system(scene);
+  const Orbit chief = fly_from(all, scene.nominal);
+  const Orbit beside = deputy ? fly_from(all, *deputy) : Orbit();
+  const std::vector<Vector3d> full = accelerations(*all, chief, scene.start_time, times);
+  for (const Without& force : forces_of(*scene.system.earth)) {
+    SystemSettings settings = scene.system;
+    force.leave_out(*settings.earth);
+    const SharedSystem system = make_system(settings, scene.canonical_radius);
+    const Orbit other_chief = fly_from(system, scene.nominal);
+    const Orbit other_beside = deputy ? fly_from(system, *deputy) : Orbit();
+    const std::vector<Vector3d> less = accelerations(*system, chief, scene.start_time, times);
+    ForceSize size = {.name = force.name, .key = force.key};
+    if (deputy) size.relative_m = 0;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const Vector3d moved = place_of(other_chief[k]) - place_of(chief[k]);
+      const double acceleration =
+          (full[k] - less[k]).norm() * units.length_m / (units.time_s * units.time_s);
+      size.largest_m_s2 = std::max(size.largest_m_s2, acceleration);
+      size.chief_m = std::max(size.chief_m, moved.norm() * units.length_m);
+      if (!deputy) continue;
+      const Vector3d other = place_of(other_beside[k]) - place_of(beside[k]);
+      size.relative_m = std::max(*size.relative_m, (other - moved).norm() * units.length_m);
+    }
+    sizes.push_back(std::move(size));
+  }
+  return sizes;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// One force of the model `earth`, and what a scene would be without it.
+struct ForceSize {
+  std::string name;         ///< for people: "tesseral harmonics", "Sun", ...
+  std::string key;          ///< how a scene leaves it out: "order = 0", ...
+  double largest_m_s2 = 0;  ///< its largest acceleration along the chief's orbit
+  double chief_m = 0;       ///< the largest change of the chief's position without it
+  /// The largest change of the deputy's position relative to the chief; no value without a deputy.
+  std::optional<double> relative_m = {};
+};
+
+/// Flies the chief, and the deputy where there is one, over the scene's duration with all forces
+/// and again without each of them, and compares at equal times. Empty for other models. Throws as
+/// exact_flow.
+std::vector<ForceSize> force_sizes(const Scene& scene);
+
+}  // namespace hamjet
