@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {

@@ -8,6 +8,7 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -84,6 +85,12 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
                          const GaussSettings& gauss, const EventCondition<Real>& condition) {
   using std::abs;
   using std::sqrt;
+  if (!is_autonomous(system)) {
+    throw Error(
+        ErrorKind::usage,
+        "event: the system depends on the time, must be one whose flow is the same at every "
+        "start");
+  }
   const SharedSystem shared(system);
   const SharedSystem crossing(time_scaled_first_order(system));
   const SpacePointer space = SeriesSpace::create(6, order);
@@ -148,7 +155,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
 }
 
 template EventMap<InstantiatedReal> event_map(const DynamicalSystem&,
-                                              const SixNumbers<InstantiatedReal>&,
+                                              const SixNumbers<InstantiatedReal>&, const ClockTime&,
                                               const InstantiatedReal&, int, const GaussSettings&,
                                               const EventCondition<InstantiatedReal>&);
 

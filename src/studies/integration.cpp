@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../algebra/raise_to.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../integrators/symmetry/symmetry_reduction.hpp"
@@ -61,6 +62,11 @@ bool has_stability_limit(const IntegratorSettings& settings) {
          settings.step_canonical.has_value();
 }
 
+/// Whether the steps of a method are all the same linear map, whose limit is that of one step.
+bool has_constant_coefficients(const DynamicalSystem& system) {
+  return system.vector_field.is_linear_system() && is_autonomous(system);
+}
+
 /// The matrix of one step on a linear system.
 Matrix<double> step_matrix(const SharedSystem& system, IntegratorSettings settings,
                            const ClockTime& start_time, double step) {
@@ -100,7 +106,7 @@ template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer,
                         bool records_step_error) {
-  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
+  if (has_stability_limit(settings) && has_constant_coefficients(*flow.system)) {
     require_stable_steps(flow.system, settings, flow.start_time,
                          static_cast<double>(flow.duration));
   }
@@ -112,7 +118,7 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
                               const ArcSettings& arcs, IntegrationStatistics& statistics,
                               ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
                               const ArcProgress& progress, bool records_step_error) {
-  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
+  if (has_stability_limit(settings) && has_constant_coefficients(*flow.system)) {
     require_stable_steps(flow.system, settings, flow.start_time,
                          static_cast<double>(flow.duration));
   }

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "../algebra/matrix_eigenvalues.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
@@ -79,7 +80,7 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   double step = std::abs(duration) / per_revolution;
   while (times_.back() != duration) {
     step = std::min({2 * step, std::abs(duration) / per_revolution,
-                     checkpoint_distance(states_.back(), per_revolution)});
+                     checkpoint_distance(states_.back(), times_.back(), per_revolution)});
     const double left = std::abs(duration - times_.back());
     const double time =
         left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
@@ -108,13 +109,14 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   }
 }
 
-double LinearFlow::checkpoint_distance(const std::vector<double>& state,
+double LinearFlow::checkpoint_distance(const std::vector<double>& state, double time,
                                        double per_revolution) const {
   std::vector<Series<double>> z;
   for (std::size_t i = 0; i < state.size(); ++i) {
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
-  const auto slope = evaluate_on_series(problem_->system->vector_field, z);
+  const auto slope =
+      evaluate_on_series(frozen_at(problem_->system->vector_field, problem_->start_time + time), z);
   // Positions and momenta of similar size preserve the digits of the eigenvalues.
   const Matrix<double> linear =
       in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/arc_plan.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
@@ -158,6 +159,12 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
   problem.symmetry = scene.symmetry;
+  if (has_time_shift(scene.symmetry) && !is_autonomous(full)) {
+    throw Error(
+        ErrorKind::scene,
+        "jet.symmetry: got \"rotation-and-time\", but the forces depend on the time, so that "
+        "no shift in time is a symmetry; must be \"rotation\" or \"none\"");
+  }
   problem.momentum_exponent =
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);

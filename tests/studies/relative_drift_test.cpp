@@ -22,7 +22,7 @@ std::optional<RelativeDrift> drift_of(const Scene& scene, const Eigen::Vector3d&
                                       const Eigen::Vector3d& velocity_m_s = {0, 0, 0}) {
   const ChiefFrame frame(scene.nominal, metric_units(scene), RelativeFrame::rtn_rotating);
   return relative_drift(scene, scene.nominal, frame.deviation({position_m, velocity_m_s}),
-                        RelativeFrame::rtn_rotating);
+                        scene.start_time, RelativeFrame::rtn_rotating);
 }
 
 // Clohessy and Wiltshire: x and y' drift by -(6 n x + 3 y') T a revolution, so that rest at x above

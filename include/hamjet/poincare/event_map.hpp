@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
@@ -27,8 +28,9 @@ struct EventMap {
 /// step of a Gauss method whose error vanishes to the order.
 ///
 /// `system` is that of an orbit: three positions and three momenta, of second order. Throws
-/// Error(numerical) if the chief's event is not found, or if the flow touches the condition's
-/// surface there, so that the time is no series; and as integrate_gauss.
+/// Error(usage) for one that depends on the time, for which the neighbours' times of flight would
+/// have to be its argument; Error(numerical) if the chief's event is not found, or if the flow
+/// touches the condition's surface there, so that the time is no series; and as integrate_gauss.
 template <class Real>
 EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
                          const ClockTime& start_time, const Real& near, int order,

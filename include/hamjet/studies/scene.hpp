@@ -15,6 +15,7 @@
 #include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 #include "hamjet/detail/studies/uncertainty_settings.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {

@@ -5,6 +5,7 @@
 
 #include "bounded_formation.hpp"
 #include "hamjet/charts/flow_section.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 
 namespace hamjet {
 

@@ -13,6 +13,7 @@
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -184,7 +185,7 @@ class EventFlights {
   /// Of a circle through the chief's start.
   double mean_motion() const {
     const Eigen::Vector3d chief(scene_.nominal.data());
-    return std::sqrt(orbit_field(scene_).mu / std::pow(chief.norm(), 3));
+    return std::sqrt(canonical_mu / std::pow(chief.norm(), 3));
   }
 
   /// The size in position, and that times the mean motion of the chief's distance in velocity, each
@@ -250,7 +251,7 @@ class EventFlights {
 /// that of the map less what the time's change adds along the chief's motion.
 double rounding_at(const EventStudy& study) {
   const State end = study.state();
-  const double mu = orbit_field(study.scene).mu;
+  const double mu = canonical_mu;
   const double distance = std::hypot(end[0], end[1], end[2]);
   Matrix<double> linear(6, 6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -310,6 +311,12 @@ EventCondition<double> event_condition(const Scene& scene) {
 
 EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.event.has_value(), "event");
+  if (!is_autonomous(make_system(scene))) {
+    throw Error(
+        ErrorKind::scene,
+        "event: the model's forces depend on the time, and the times of neighbours would be "
+        "no argument of theirs; must be zonal-gravity or kepler");
+  }
   const EventCondition<double> condition = event_condition(scene);
   if (progress) progress("event", 0);
   EventSearch search(scene, condition);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/single_transfer.hpp"
@@ -26,15 +27,17 @@ struct FlightOutcome {
 
 FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  EnergyError energy(*system, flight.start);
+  EnergyError energy(*system, flight.start, flight.start_time);
   // If terms cancel, their sum is no scale for the change.
-  energy.value(extended(flight.start));
+  energy.value(extended(flight.start), flight.start_time);
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);
   FlightOutcome outcome;
   fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
-    const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
+    const Extended change =
+        energy.value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
+        energy.initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
     if (!(size <= outcome.energy_change)) outcome.energy_change = size;
   });
@@ -122,10 +125,15 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     surface.limit.reset();
     surface.text = "the model has no radius";
   }
+  const SharedSystem system = make_system(scene);
+  if (energy.state != SelfCheckState::off && !is_autonomous(*system)) {
+    energy.state = SelfCheckState::not_applicable;
+    energy.limit.reset();
+    energy.text = "the forces depend on the time, so that no energy is kept";
+  }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
   if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
   const Stopwatch watch(energy.seconds);
-  const SharedSystem system = make_system(scene);
   const CheckedFlight* leaving = &flights.front();
   const CheckedFlight* falling = &flights.front();
   double change = 0;

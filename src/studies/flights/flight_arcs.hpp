@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {

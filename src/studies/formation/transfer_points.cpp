@@ -10,6 +10,7 @@
 
 #include "../../algebra/raise_to.hpp"
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -292,12 +293,13 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
 void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
                                       const std::vector<double>& w, TransferPoint& point) {
   const Stopwatch watch(seconds_.residual);
+  const SharedSystem then = frozen_at(problem_.system, problem_.start_time + point.time);
   HamiltonJacobiTerms terms =
-      hamilton_jacobi_terms<double>(*problem_.system, nominal_of(jet), *chosen.inversion, w);
+      hamilton_jacobi_terms<double>(*then, nominal_of(jet), *chosen.inversion, w);
   const double scaled = terms.scaled();
   point.hamilton_jacobi_residual = scaled;
   if (largest_residual_ && !(scaled > largest_residual_->scaled)) return;
-  largest_residual_ = {scaled, jet, chosen.inversion->kind, w, std::move(terms)};
+  largest_residual_ = {scaled, then, jet, chosen.inversion->kind, w, std::move(terms)};
 }
 
 std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
@@ -318,8 +320,9 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
       const auto inversion = invert_partially<double>(jet, largest_residual_->kind,
                                                       std::numeric_limits<double>::epsilon(),
                                                       problem_.momentum_exponent);
-      HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
-          *problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
+      HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(*largest_residual_->system,
+                                                                nominal_of(largest_residual_->jet),
+                                                                inversion, largest_residual_->w);
       for (std::size_t i = 0; i < terms.residual.size(); ++i) {
         terms.residual[i] -= largest_residual_->terms.residual[i];
       }

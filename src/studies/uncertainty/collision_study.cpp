@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/taylor_flow.hpp"
 #include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
@@ -288,7 +289,15 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   lower.order = std::min(problem.order, highest_order);
   first_order.order = 1;
   const EncounterTrajectories linear(first_order);
-  for (const ClosestApproach& approach : closest_approaches(lower)) {
+  std::vector<ClosestApproach> approaches;
+  if (is_autonomous(*problem.system)) {
+    approaches = closest_approaches(lower);
+  } else {
+    result.warnings.emplace_back(
+        "closest approaches are not told: the forces depend on the time, and the times of "
+        "deviating spacecraft would have to be their argument");
+  }
+  for (const ClosestApproach& approach : approaches) {
     if (progress) progress("closest approaches", 0);
     result.approaches.push_back(
         uncertain_approach(lower, approach, scene.uncertainty->seed, units));
