@@ -16,6 +16,7 @@
 #include "studies/bounded/frozen_orbit_study.hpp"
 #include "studies/checks/flight_checks.hpp"
 #include "studies/exact_flow.hpp"
+#include "studies/formation/deputy_flows.hpp"
 #include "studies/formation/deputy_motion.hpp"
 #include "studies/formation/single_transfer.hpp"
 #include "studies/formation/validity/flown_deputies.hpp"
@@ -330,7 +331,7 @@ TEST(DrivenStudies, PropagationThereAndBack) {
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_LT(errors[0].error, 1e-10);
   // Energy is not kept, and not judged; its change along the way is that of the Hamiltonian.
-  for (const SelfCheck& check : there.runs[0].self_checks) {
+  for (const SelfCheck& check : there.runs[0].checks) {
     if (check.name == SelfCheckName::energy) {
       EXPECT_EQ(check.state, SelfCheckState::not_applicable);
     } else {

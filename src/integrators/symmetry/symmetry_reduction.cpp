@@ -1,7 +1,6 @@
 #include "symmetry_reduction.hpp"
 
 #include "../../algebra/instantiated_real.hpp"
-#include "../../dynamics/autonomy.hpp"
 
 namespace hamjet {
 
@@ -14,7 +13,8 @@ std::optional<SymmetryReduction<Real>> SymmetryReduction<Real>::of(
   }
   SymmetryReduction result;
   result.rotation_ = RotationReduction<Real>::of(problem);
-  if (has_time_shift(problem.symmetry) && is_autonomous(*problem.system)) {
+  // A flow that depends on the time does not commute with shifts in it.
+  if (has_time_shift(problem.symmetry) && problem.system->is_autonomous()) {
     std::optional<LeftOutRotation> rotation;
     if (result.rotation_) rotation = result.rotation_->left_out();
     result.time_ =
