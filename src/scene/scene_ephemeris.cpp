@@ -108,17 +108,17 @@ const TableDescription& ephemeris_table() {
 }
 
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
-                                 const std::optional<NominalFile>& file,
+                                 const std::optional<EphemerisSettings>& known,
                                  const SystemSettings& system) {
   ephemeris.check_keys();
   EphemerisSettings settings;
-  if (file) settings = file->ephemeris;
+  if (known) settings = *known;
   const EphemerisSettings of_file = settings;
   const auto read = [&](std::string_view key, std::string& value, const auto& read_value,
                         const std::string& right) {
-    if (!ephemeris.has(key) && file) return;
+    if (!ephemeris.has(key) && known) return;
     value = read_value();
-    if (file) require_same(ephemeris, key, value, right);
+    if (known) require_same(ephemeris, key, value, right);
   };
   read(
       "epoch", settings.epoch, [&] { return format_epoch(read_epoch(ephemeris, "epoch")); },
@@ -127,7 +127,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "time_system", settings.time_system,
       [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
       of_file.time_system);
-  if (!file) {
+  if (!known) {
     settings.reference_frame = read_frame(ephemeris);
   } else if (ephemeris.has("reference_frame")) {
     const std::string frame = read_frame(ephemeris);
@@ -138,11 +138,11 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
   }
   if (ephemeris.has("reference_frame_epoch")) {
     settings.reference_frame_epoch = format_epoch(read_epoch(ephemeris, "reference_frame_epoch"));
-    if (file) {
+    if (known) {
       require_same(ephemeris, "reference_frame_epoch", settings.reference_frame_epoch,
                    of_file.reference_frame_epoch);
     }
-  } else if (!file && settings.reference_frame.ends_with("OFEPOCH")) {
+  } else if (!known && settings.reference_frame.ends_with("OFEPOCH")) {
     ephemeris.fail("reference_frame_epoch",
                    fmt::format("missing, must be the epoch of the frame {}, ISO 8601",
                                settings.reference_frame));
@@ -151,7 +151,7 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "center_name", settings.center_name, [&] { return message_text(ephemeris, "center_name"); },
       of_file.center_name);
   // A nominal from a file has already been compared with the scene's centre.
-  if (!file) require_centre(ephemeris, settings.center_name, system);
+  if (!known) require_centre(ephemeris, settings.center_name, system);
   const auto rename = [&](std::string_view key, std::string& value) {
     if (ephemeris.has(key)) value = message_text(ephemeris, key);
   };

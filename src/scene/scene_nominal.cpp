@@ -6,6 +6,7 @@
 
 #include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
+#include "scene_earth.hpp"
 #include "scene_orbit.hpp"
 #include "scene_sections.hpp"
 
@@ -100,6 +101,7 @@ const TableDescription& nominal_table() {
   static const TableDescription table = {
       joined<SceneKey>(
           {orbit_keys({orbits}),
+           epoch_keys(),
            {{"position_m", of_model, absent::refused(), "of each degree of freedom", other},
             {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other}}}),
       "An orbit has one of three forms: position and velocity, osculating elements, or the file of "
@@ -127,6 +129,7 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<std::string>& center_name) {
   check_keys_of_model(nominal, system.model);
   if (is_orbit(system.model)) {
+    refuse_epoch_keys(nominal, system);
     const SceneCentre centre = {system, center_name};
     Orbit orbit = read_orbit(nominal, centre);
     Nominal result = canonical_orbit(nominal, orbit.state, system.mu_km3_s2, length_km, units);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../text/scene_message.hpp"
+#include "scene_earth.hpp"
 #include "scene_elements.hpp"
 #include "scene_sections.hpp"
 
@@ -79,11 +80,21 @@ Orbit read_orbit(const TableReader& table, const SceneCentre& centre) {
   if (cartesian && element) refuse_both(*cartesian, *element);
   if (cartesian && of_file) refuse_both(*cartesian, *of_file);
   if (element && of_file) refuse_both(*element, *of_file);
-  if (cartesian) return {read_position_and_velocity(table), std::nullopt};
-  if (element) return {read_elements(table, centre), std::nullopt};
-  if (!of_file) table.fail("", "no orbit, got neither of its forms, must be " + right);
-  NominalFromFile read = read_nominal_file(table, centre);
-  return {read.state, std::move(read.file)};
+  Orbit orbit;
+  if (cartesian) {
+    orbit.state = read_position_and_velocity(table);
+  } else if (element) {
+    orbit.state = read_elements(table, centre);
+  } else if (of_file) {
+    NominalFromFile read = read_nominal_file(table, centre);
+    orbit = {read.state, std::move(read.file)};
+  } else {
+    table.fail("", "no orbit, got neither of its forms, must be " + right);
+  }
+  if (centre.system.earth) {
+    orbit.state = in_gcrf(table, orbit.state, orbit.file, *centre.system.earth);
+  }
+  return orbit;
 }
 
 }  // namespace hamjet::io

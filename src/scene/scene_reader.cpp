@@ -7,6 +7,7 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
+#include "scene_earth.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
@@ -77,8 +78,9 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   read_table("output",
              [&](const auto& table) { scene.output = read_output(table, scene.system.model); });
   if (nominal.file) scene.ephemeris = nominal.file->ephemeris;
+  if (scene.system.earth) scene.ephemeris = ephemeris_of_earth(root, *scene.system.earth);
   const bool has_dates = read_table("ephemeris", [&](const auto& table) {
-    scene.ephemeris = read_ephemeris(table, nominal.file, scene.system);
+    scene.ephemeris = read_ephemeris(table, scene.ephemeris, scene.system);
   });
   nominal.ephemeris = scene.ephemeris;
   const bool has_jet = root.attempt([&] {
@@ -89,6 +91,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     scene.arcs = jet.arcs;
     scene.symmetry = jet.symmetry;
     scene.coordinates = jet.coordinates;
+    set_span_of_earth(scene);
   });
   if (!has_jet || !has_precision) return scene;
 

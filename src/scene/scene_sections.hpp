@@ -183,10 +183,10 @@ OutputSettings read_output(const TableReader& output, SystemModel model);
 Epoch read_epoch(const TableReader& table, std::string_view key);
 ValueForm form_of_epoch();
 
-/// Table `[ephemeris]`. What the nominal's file says about time, frame and centre may be repeated
-/// here, but not changed. A body that the scene names must be the centre of its system.
+/// Table `[ephemeris]`. What is known of time, frame and centre, from the nominal's file or from the
+/// epoch of the model earth, may be repeated here, but not changed. A body that the scene names must be the centre of its system.
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
-                                 const std::optional<NominalFile>& file,
+                                 const std::optional<EphemerisSettings>& known,
                                  const SystemSettings& system);
 
 /// Throws an error about the key that gives the nominal's start if the moments of the scene cannot

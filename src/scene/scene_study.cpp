@@ -8,6 +8,7 @@
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
 #include "scene_name.hpp"
+#include "scene_earth.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
 
@@ -122,7 +123,12 @@ void attempt_misspelt_study(const TableReader& root, const toml::table& scene) {
 Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) {
   // The readers are in the order of all_studies().
   const std::function<Study(const TableReader&)> readers[] = {
-      [&](const TableReader& tables) { return read_flow_jet(tables, units); },
+      [&](const TableReader& tables) {
+        Scene scene = read_flow_jet(tables, units);
+        set_span_of_earth(scene);
+        if (scene.system.earth) keep_orientation_of_span(*scene.system.earth);
+        return scene;
+      },
       read_canonical_transformation, read_energy_conservation, read_optimal_control};
   const auto& [name, top] = all_studies()[study];
   root.attempt([&] {

@@ -7,6 +7,7 @@
 #include "../store/text_file.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
+#include "scene_earth.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -216,6 +217,9 @@ const TableDescription& system_table() {
       if (system.model == SystemModel::zonal_gravity) {
         result.keys = joined<SceneKey>({result.keys, zonal_gravity_keys()});
       }
+      if (system.model == SystemModel::earth) {
+        result.keys = joined<SceneKey>({result.keys, earth_keys()});
+      }
       for (const SystemParameter& parameter : system.parameters) {
         result.keys.push_back(key_of(parameter, system.name));
       }
@@ -234,7 +238,9 @@ SystemSettings read_system(const TableReader& root) {
   if (has_zonals) refuse_other_zonals(system);
   const std::string_view model = model_name(settings.model);
   system.check_keys(model, "the model " + std::string(model));
-  if (has_zonals && system.has("gravity_file")) {
+  if (settings.model == SystemModel::earth) {
+    read_earth(root, settings);
+  } else if (has_zonals && system.has("gravity_file")) {
     read_gravity_file(root, settings);
   } else if (has_zonals) {
     read_zonals(system, settings);

@@ -27,7 +27,9 @@ SphericalHarmonicCoefficients coefficients_of(const EarthSettings& earth) {
   return result;
 }
 
-std::shared_ptr<const EarthOrientation> orientation_of(const EarthSettings& earth) {
+}  // namespace
+
+std::shared_ptr<const EarthOrientation> earth_orientation(const EarthSettings& earth) {
   if (earth.orientation.empty()) return nullptr;
   std::vector<EarthOrientationDay> days;
   for (const OrientationRow& row : earth.orientation) {
@@ -37,8 +39,6 @@ std::shared_ptr<const EarthOrientation> orientation_of(const EarthSettings& eart
   }
   return std::make_shared<const EarthOrientation>(earth.orientation_file, days);
 }
-
-}  // namespace
 
 DynamicalSystem earth_system(const SystemSettings& settings, double canonical_radius) {
   const EarthSettings& earth = settings.earth.value();
@@ -51,7 +51,7 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   gravity.potential =
       std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, coefficients_of(earth));
   gravity.axes =
-      std::make_shared<const EarthRotation>(epoch, time_s, first, last, orientation_of(earth));
+      std::make_shared<const EarthRotation>(epoch, time_s, first, last, earth_orientation(earth));
   const auto add = [&](bool acts, PerturbingBody body, double mu_km3_s2) {
     if (!acts) return;
     const double mu = mu_km3_s2 / settings.mu_km3_s2;

@@ -8,6 +8,7 @@
 #include "../../dynamics/harmonic_oscillator.hpp"
 #include "../../dynamics/oscillator_pair.hpp"
 #include "../../dynamics/spring_pendulum.hpp"
+#include "../earth_system.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/error.hpp"
 #include "system_description.hpp"
@@ -24,6 +25,13 @@ double period_of(double mass_kg, double stiffness_N_per_m) {
 
 std::vector<SystemDescription> describe_systems() {
   return {
+      {.model = SystemModel::earth,
+       .name = "earth",
+       .help = "the real Earth: a field of any degree and order that turns, Sun and Moon; an epoch "
+               "and axes in [nominal]: degree, order, gravity_file, sun, moon, orientation_file",
+       .is_orbit = true,
+       .degrees_of_freedom = {3},
+       .make = earth_system},
       {.model = SystemModel::zonal_gravity,
        .name = "zonal-gravity",
        .help = "Earth orbit with J2 to J20, each optional: mu_km3_s2, radius_km, J2, ..., J20; or "

@@ -1,0 +1,267 @@
+#include "scene_earth.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "../studies/earth_system.hpp"
+#include "../text/scene_message.hpp"
+#include "hamjet/astronomy/earth_axes.hpp"
+#include "hamjet/error.hpp"
+#include "scene_earth_field.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+namespace {
+
+struct EpochKey {
+  std::string_view name;
+  TimeSystem system;
+};
+constexpr std::array<EpochKey, 4> epoch_key_names = {{{"epoch_utc", TimeSystem::utc},
+                                                      {"epoch_tt", TimeSystem::tt},
+                                                      {"epoch_tai", TimeSystem::tai},
+                                                      {"epoch_gps", TimeSystem::gps}}};
+constexpr std::string_view right_epoch =
+    "must be one of epoch_utc, epoch_tt, epoch_tai and epoch_gps, for the Earth turns by 465 m a "
+    "second at its equator";
+
+/// The axes that a scene may name; TEME is that of two-line elements, which are no orbits here.
+const std::vector<std::string_view> axes_names = {"GCRF", "EME2000", "MOD", "TOD", "ITRF"};
+
+constexpr double mu_margin = 0.01;
+
+std::vector<std::string_view> given_epochs(const TableReader& nominal) {
+  std::vector<std::string_view> given;
+  for (const EpochKey& key : epoch_key_names) {
+    if (nominal.has(key.name)) given.push_back(key.name);
+  }
+  return given;
+}
+
+/// The date at which the nominal stands: of the keys, of the message, or of [ephemeris].
+struct Date {
+  Epoch epoch;
+  TimeSystem system;
+};
+
+TimeSystem system_named(std::string_view name) {
+  const auto& names = time_system_names();
+  return static_cast<TimeSystem>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+Date read_date(const TableReader& root) {
+  const TableReader nominal = root.table("nominal");
+  const auto given = given_epochs(nominal);
+  const auto of_file = settings_of_orbit_file(nominal);
+  if (given.size() > 1) {
+    nominal.fail(given[1], fmt::format("a second epoch, got {} and {}, {}", given[0], given[1],
+                                       right_epoch));
+  }
+  if (of_file) {
+    if (!given.empty()) {
+      nominal.fail(given[0], fmt::format("the message has its own epoch, got {}, must be left out",
+                                         nominal.found(given[0])));
+    }
+    return {parse_epoch(of_file->epoch).value(), system_named(of_file->time_system)};
+  }
+  if (!given.empty()) {
+    const auto key = std::find_if(epoch_key_names.begin(), epoch_key_names.end(),
+                                  [&](const EpochKey& one) { return one.name == given[0]; });
+    return {read_epoch(nominal, key->name), key->system};
+  }
+  if (nominal.has("epoch")) {
+    nominal.fail("epoch", fmt::format("without a time system, got {}, {}", nominal.found("epoch"),
+                                      right_epoch));
+  }
+  if (root.has("ephemeris") && root.table("ephemeris").has("epoch") &&
+      root.table("ephemeris").has("time_system")) {
+    const TableReader ephemeris = root.table("ephemeris");
+    return {read_epoch(ephemeris, "epoch"),
+            static_cast<TimeSystem>(ephemeris.choice("time_system"))};
+  }
+  nominal.fail("", fmt::format("no epoch, got a scene of the model earth without one, {}",
+                               right_epoch));
+}
+
+void read_orientation(const TableReader& system, EarthSettings& earth) {
+  if (!system.has("orientation_file")) return;
+  earth.orientation_file = system.text("orientation_file");
+  constexpr std::size_t most_bytes = std::size_t{1} << 26;
+  const auto days = parse_finals2000a(printable_path(system.path_beside_scene("orientation_file")),
+                                      system.content_beside_scene("orientation_file", most_bytes));
+  for (const EarthOrientationDay& day : days) {
+    earth.orientation.push_back({day.day.time_since_epoch().count(), day.ut1_minus_utc_s,
+                                 day.pole_x_arcsec, day.pole_y_arcsec, day.offset_x_arcsec,
+                                 day.offset_y_arcsec, day.is_predicted});
+  }
+}
+
+}  // namespace
+
+std::vector<SceneKey> earth_keys() {
+  const std::vector<std::string_view> owner = {"earth"};
+  const EarthSettings preset;
+  return {{"degree", form::integer(0, SphericalHarmonicField::highest_degree),
+           absent::value(preset.degree), "of the harmonics of the Earth's field", owner},
+          {"order", form::integer(0, SphericalHarmonicField::highest_degree),
+           absent::other("`degree`"), "of the harmonics; 0 leaves zonal ones", owner},
+          {"sun", form::boolean(), absent::value(preset.has_sun), "whether it attracts", owner},
+          {"moon", form::boolean(), absent::value(preset.has_moon), "whether it attracts", owner},
+          {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),
+           "gravitational parameter of the Sun", owner},
+          {"mu_moon_km3_s2", form::positive(), absent::value(preset.mu_moon_km3_s2),
+           "gravitational parameter of the Moon", owner},
+          {"orientation_file", form::text(), absent::other("UT1 = UTC, no polar motion"),
+           "finals2000A of the IERS, relative to the scene's folder", owner}};
+}
+
+std::vector<SceneKey> epoch_keys() {
+  std::vector<SceneKey> keys;
+  for (const EpochKey& key : epoch_key_names) {
+    keys.push_back({key.name, form_of_epoch(), absent::other("another one, for the model earth"),
+                    "of the start", {orbits}});
+  }
+  keys.push_back({"axes", form::choice(axes_names), absent::value("GCRF"),
+                  "in which the model earth is given orbits", {orbits}});
+  return keys;
+}
+
+void refuse_epoch_keys(const TableReader& nominal, const SystemSettings& system) {
+  if (system.earth) return;
+  std::vector<std::string_view> keys = given_epochs(nominal);
+  if (nominal.has("axes")) keys.emplace_back("axes");
+  if (keys.empty()) return;
+  nominal.fail(keys[0],
+               fmt::format("of no use to the model {}, whose axes are those of its field at all "
+                           "times, got {}, must be left out, or system.model = \"earth\"",
+                           model_name(system.model), nominal.found(keys[0])));
+}
+
+void read_earth(const TableReader& root, SystemSettings& settings) {
+  const TableReader system = root.table("system");
+  EarthSettings earth;
+  const Date date = read_date(root);
+  const Instant epoch = [&] {
+    try {
+      return instant_of(date.epoch, date.system);
+    } catch (const Error& error) {
+      root.table("nominal").fail("", error.what());
+    }
+  }();
+  earth.epoch_tt = format_epoch(epoch.tt);
+  if (date.system == TimeSystem::utc) {
+    if (const auto doubt = doubt_of_utc(date.epoch)) root.table("nominal").warn("", *doubt);
+  }
+  if (system.has("degree")) earth.degree = static_cast<int>(system.integer("degree"));
+  earth.order = earth.degree;
+  if (system.has("order")) {
+    earth.order = static_cast<int>(system.integer("order"));
+    if (earth.order > earth.degree) {
+      system.fail("order", fmt::format("above the degree, got {} and degree = {}, must be at most "
+                                       "the degree",
+                                       earth.order, earth.degree));
+    }
+  }
+  read_earth_field(root, date.epoch, settings, earth);
+  system.read_if_any("sun", earth.has_sun);
+  system.read_if_any("moon", earth.has_moon);
+  const auto read_mu = [&](std::string_view key, double& mu, bool acts) {
+    if (!system.has(key)) return;
+    if (!acts) {
+      system.fail(key, fmt::format("of a body that does not attract, got {}, must be left out",
+                                   system.found(key)));
+    }
+    const double usual = mu;
+    mu = system.positive_number(key);
+    if (std::abs(mu / usual - 1) > mu_margin) {
+      system.warn(key, fmt::format("another body's mu, got {}, should be near {} km^3/s^2", mu,
+                                   usual));
+    }
+  };
+  read_mu("mu_sun_km3_s2", earth.mu_sun_km3_s2, earth.has_sun);
+  read_mu("mu_moon_km3_s2", earth.mu_moon_km3_s2, earth.has_moon);
+  read_orientation(system, earth);
+  const TableReader nominal = root.table("nominal");
+  if (nominal.has("axes")) earth.axes = axes_names[nominal.choice("axes")];
+  settings.earth = std::move(earth);
+}
+
+CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
+                       const std::optional<NominalFile>& file, const EarthSettings& earth) {
+  const std::string name = file ? file->ephemeris.reference_frame : earth.axes;
+  const auto axes = axes_named(name);
+  if (!axes) {
+    table.fail("", fmt::format("axes that are not known, got {}, must be one of: {}",
+                               in_quotes(name), listed(axes_names)));
+  }
+  if (*axes == EarthAxes::gcrf) return state;
+  Instant moment{parse_epoch(earth.epoch_tt).value()};
+  if (file) {
+    moment = instant_of(parse_epoch(file->ephemeris.epoch).value(),
+                        system_named(file->ephemeris.time_system));
+  }
+  const AxesChange change = axes_change(*axes, EarthAxes::gcrf, moment, earth_orientation(earth));
+  CartesianState result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.position_km[i] = result.velocity_km_s[i] = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      result.position_km[i] += change.rotation(row, column) * state.position_km[j];
+      result.velocity_km_s[i] += change.rotation(row, column) * state.velocity_km_s[j] +
+                                 change.rate(row, column) * state.position_km[j];
+    }
+  }
+  return result;
+}
+
+EphemerisSettings ephemeris_of_earth(const TableReader& root, const EarthSettings&) {
+  const Date date = read_date(root);
+  EphemerisSettings settings;
+  settings.epoch = format_epoch(date.epoch);
+  settings.time_system = time_system_names()[static_cast<std::size_t>(date.system)];
+  settings.reference_frame = "GCRF";
+  settings.center_name = "EARTH";
+  return settings;
+}
+
+void set_span_of_earth(Scene& scene) {
+  if (!scene.system.earth) return;
+  double first = 0, last = 0;
+  const auto reach = [&](double time) {
+    first = std::min(first, time);
+    last = std::max(last, time);
+  };
+  reach(scene.duration);
+  for (const double time : scene.relative_hamiltonian_times) reach(time);
+  if (scene.transfer) reach(scene.transfer->times.back());
+  if (scene.validity) reach(scene.validity->times.back());
+  if (const auto& uncertainty = scene.uncertainty) {
+    if (!uncertainty->times.empty()) reach(uncertainty->times.back());
+    const auto reach_window = [&](const auto& watch) {
+      if (!watch) return;
+      reach(watch->from);
+      reach(watch->to);
+    };
+    reach_window(uncertainty->collision);
+    reach_window(uncertainty->safety);
+  }
+  EarthSettings& earth = *scene.system.earth;
+  earth.first_s = first * scene.units.time_s;
+  earth.last_s = last * scene.units.time_s;
+}
+
+void keep_orientation_of_span(EarthSettings& earth) {
+  // Interpolation and flights a little beyond take a few days more.
+  constexpr long beyond = 4;
+  const long day = parse_epoch(earth.epoch_tt)->day.time_since_epoch().count();
+  const long first_day = day + static_cast<long>(std::floor(earth.first_s / 86400)) - beyond;
+  const long last_day = day + static_cast<long>(std::ceil(earth.last_s / 86400)) + beyond;
+  std::erase_if(earth.orientation, [&](const OrientationRow& row) {
+    return row.day < first_day || row.day > last_day;
+  });
+}
+
+}  // namespace hamjet::io
