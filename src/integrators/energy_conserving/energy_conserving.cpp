@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "../../algebra/instantiated_real.hpp"
-#include "../../dynamics/autonomy.hpp"
 #include "../compensated_addition.hpp"
 #include "energy_conserving_midpoint.hpp"
 #include "energy_conserving_stormer.hpp"
@@ -88,7 +87,6 @@ void validate(const EnergyConservingProblem<Real>& problem) {
     throw Error(ErrorKind::usage, fmt::format("energy-conserving integration: {}", what));
   };
   if (!problem.system) fail("no system");
-  if (!is_autonomous(*problem.system)) fail("the system depends on the time and keeps no energy");
   if (problem.initial_state.size() != problem.system->dimension()) {
     fail("the initial state has not as many numbers as the system");
   }

@@ -1,7 +1,6 @@
 #include "symmetry_reduction.hpp"
 
 #include "../../algebra/instantiated_real.hpp"
-#include "../../dynamics/autonomy.hpp"
 
 namespace hamjet {
 
@@ -14,7 +13,7 @@ std::optional<SymmetryReduction<Real>> SymmetryReduction<Real>::of(
   }
   SymmetryReduction result;
   result.rotation_ = RotationReduction<Real>::of(problem);
-  if (has_time_shift(problem.symmetry) && is_autonomous(*problem.system)) {
+  if (has_time_shift(problem.symmetry)) {
     std::optional<LeftOutRotation> rotation;
     if (result.rotation_) rotation = result.rotation_->left_out();
     result.time_ =
