@@ -153,9 +153,8 @@ std::vector<Expression> time_values(const std::shared_ptr<const TimeFunction>& f
     for (const Extended& x : numbers) values.emplace_back(x);
     return values;
   }
-  if (!t.recorder()->is_number(t.value())) {
-    throw Error(ErrorKind::usage,
-                "expression: a function of the time takes no position or momentum");
+  if (!t.recorder()->is_time(t.value())) {
+    throw Error(ErrorKind::usage, "expression: a function of the time takes the time itself");
   }
   for (std::size_t c = 0; c < function->components(); ++c) {
     values.push_back(t.recorder()->time_function(function, c, t.value()));

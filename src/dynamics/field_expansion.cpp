@@ -43,13 +43,16 @@ VaryingPart varying_part(const OperationList& list, std::size_t value) {
 /// The list with expanded fields, operation by operation.
 class FieldExpansion {
  public:
-  FieldExpansion(const OperationList& list, int order)
-      : list_(list), order_(std::max(order, 1)), place_(list.operations().size()) {}
+  FieldExpansion(const OperationList& list, int order, FieldMotion motion)
+      : list_(list),
+        order_(std::max(order, 1)),
+        motion_(motion),
+        place_(list.operations().size()) {}
 
   OperationList run() {
     for (std::size_t i = 0; i < list_.operations().size(); ++i) {
       Operation o = list_.operations()[i];
-      if (o.code == OperationCode::field && !list_.is_number(i)) {
+      if (o.code == OperationCode::field && moves(i)) {
         group_of_.resize(i + 1, none);
         group_of_[i] = find_group(o.parts[0].position);
         place_[i] = add_field(group_of_[i], placed(std::move(o.parts)));
@@ -82,6 +85,17 @@ class FieldExpansion {
     std::vector<std::size_t> monomials;  ///< and their places among the coefficients
   };
 
+  /// Whether a value has deviations.
+  bool moves(std::size_t value) const {
+    const bool moves_with_time = motion_ == FieldMotion::with_time && list_.depends_on_time(value);
+    return moves_with_time || !list_.is_number(value);
+  }
+
+  VaryingPart deviation(std::size_t value) const {
+    if (motion_ == FieldMotion::with_variables) return varying_part(list_, value);
+    return moves(value) ? VaryingPart{{{value}, 1}} : VaryingPart();
+  }
+
   std::size_t add(Operation o) {
     operations_.push_back(std::move(o));
     return operations_.size() - 1;
@@ -105,7 +119,7 @@ class FieldExpansion {
 
   std::size_t find_group(const std::array<std::size_t, 3>& position) {
     Deviations deviations;
-    for (std::size_t i = 0; i < 3; ++i) deviations[i] = varying_part(list_, position[i]);
+    for (std::size_t i = 0; i < 3; ++i) deviations[i] = deviation(position[i]);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       if (groups_[g].deviations == deviations) return g;
     }
@@ -196,6 +210,7 @@ class FieldExpansion {
 
   const OperationList& list_;
   int order_;
+  FieldMotion motion_;
   std::vector<std::size_t>
       place_;  ///< of each value of the list, and of merged fields, in the new one
   std::vector<std::size_t> group_of_;  ///< of each field of the list
@@ -205,8 +220,8 @@ class FieldExpansion {
 
 }  // namespace
 
-OperationList expand_fields(const OperationList& list, int order) {
-  return list.has_fields() ? FieldExpansion(list, order).run() : list;
+OperationList expand_fields(const OperationList& list, int order, FieldMotion motion) {
+  return list.has_fields() ? FieldExpansion(list, order, motion).run() : list;
 }
 
 }  // namespace hamjet

@@ -36,6 +36,8 @@ class ArcIntegrator {
   virtual long step(std::size_t checkpoint) const = 0;
   /// The nominal at a checkpoint.
   virtual const std::vector<Real>& state(std::size_t checkpoint) const = 0;
+  /// The time of a checkpoint since the start.
+  virtual Real time(std::size_t checkpoint) const = 0;
   /// Takes the steps from a checkpoint to step number `last` of the whole integration, with a jet
   /// about the checkpoint's state.
   virtual FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,

@@ -13,7 +13,9 @@ namespace hamjet {
 constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
 
 TaylorFlow::TaylorFlow(SharedSystem system)
-    : system_(std::move(system)), field_(system_->vector_field, order) {}
+    : system_(std::move(system)),
+      highest_power_(system_->vector_field.has_fields() ? highest_power_of_fields : order),
+      field_(system_->vector_field, highest_power_) {}
 
 void TaylorFlow::set_state(std::size_t lane, const ClockTime& time, std::span<const double> state) {
   set_state(lane, time.in<double>(), state);
@@ -82,15 +84,17 @@ void TaylorFlow::expand(std::span<const double> times) {
   const Lanes spans = Lanes::of_lanes(
       [&](std::size_t lane) { return lane < times.size() ? std::abs(times[lane]) : 0.0; });
   const std::size_t timed = std::min(times.size(), lanes);
-  powers_.fill(order);
+  powers_.fill(highest_power_);
+  field_.set_time(clock_);
   proved_ = Lanes();
   std::size_t proved = 0;
   Lanes square;     // squares of the durations in the lanes' units of time
   Lanes before(1);  // their power k
-  for (int k = 0; k < order; ++k) {
+  for (int k = 0; k < highest_power_; ++k) {
     field_.expand(k);
     if (k == 0) {
       choose_units();
+      field_.set_unit(units_);
       square = spans / units_;
       square *= square;
     }
@@ -106,7 +110,8 @@ void TaylorFlow::expand(std::span<const double> times) {
     }
     for (std::size_t lane = 0; lane < timed; ++lane) {
       const auto i = static_cast<int>(lane);
-      if (powers_[lane] < order || !(shares.lane(i) <= least_share * least_share)) continue;
+      if (powers_[lane] < highest_power_ || !(shares.lane(i) <= least_share * least_share))
+        continue;
       powers_[lane] = k + 1;
       proved_.set_lane(i, spans.lane(i));
       ++proved;

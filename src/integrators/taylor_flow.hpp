@@ -30,6 +30,8 @@ class TaylorFlow {
   static constexpr std::size_t lanes = 8;
   /// The highest power of time.
   static constexpr int order = 24;
+  /// The highest power for systems with fields, whose monomials grow in number with its cube.
+  static constexpr int highest_power_of_fields = 12;
 
   explicit TaylorFlow(SharedSystem system);
 
@@ -76,6 +78,7 @@ class TaylorFlow {
   Lanes squares(int power, bool is_of_momenta) const;
 
   SharedSystem system_;
+  int highest_power_;
   TimeExpansion<Lanes, double> field_;
   Lanes clock_;  ///< the system's clock at the states
   /// The lanes' units. Coefficients belong to powers (t / unit)^k, so that in any units of the

@@ -68,8 +68,8 @@ std::vector<double> parts_of_speed(const FlowProblem<Real>& problem,
   const std::size_t n = problem.system->degrees_of_freedom;
   const std::span<const Real> z(problem.initial_state);
   FieldAtStates<Real> field(*problem.system);
-  const std::vector<double> gradient = field.energy_gradient(z);
-  const double scale = field.momentum_scale(z);
+  const std::vector<double> gradient = field.energy_gradient(z, problem.start_time);
+  const double scale = field.momentum_scale(z, problem.start_time);
   std::vector<double> speed;
   for (std::size_t i = 0; i < n; ++i) speed.push_back(gradient[n + i]);
   for (std::size_t i = 0; i < n; ++i) speed.push_back(-gradient[i]);

@@ -57,8 +57,8 @@ class Expression {
   friend Expression field_value(const std::shared_ptr<const LocalField>& field,
                                 const std::array<Expression, 3>& position,
                                 const std::array<int, 3>& orders);
-  /// The components of a function of the time at t, which must not depend on the variables:
-  /// Error(usage).
+  /// The components of a function of the time; Error(usage) unless t is the time itself or a
+  /// number.
   friend std::vector<Expression> time_values(const std::shared_ptr<const TimeFunction>& function,
                                              const Expression& t);
 
@@ -97,6 +97,8 @@ class Recorder {
   std::size_t constant_value(const Extended& constant);
   Expression time_function(const std::shared_ptr<const TimeFunction>& function,
                            std::size_t component, std::size_t time);
+  /// Whether a value is the input of the time.
+  bool is_time(std::size_t value) const { return has_time_ && value + 1 == inputs_; }
   /// Whether a value depends on no variable, see OperationList.
   bool is_number(std::size_t value) const { return is_number_[value]; }
   /// Records sine and cosine as a pair, because their series need each other.

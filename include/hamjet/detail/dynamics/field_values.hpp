@@ -83,15 +83,16 @@ class FieldValues {
     return sum;
   }
 
-  /// The coefficients of the terms of field i, by `set(term, coefficient)`, which may be called
-  /// several times for fields of several parts with growing sums.
+  /// The coefficients of the terms of field i up to a degree, in their order, by
+  /// `set(term, coefficient)`.
   template <class Value, class Set>
-  void evaluate_terms(std::size_t i, const Value& value, const Set& set) {
-    const std::size_t terms = list_->operations()[i].terms.size();
+  void evaluate_terms(std::size_t i, int degree, const Value& value, const Set& set) {
+    const std::vector<std::size_t>& monomials = list_->operations()[i].monomials;
     for (const Part& part : fields_[i]) {
-      if (part.is_first) expand(points_[part.point], order_, value);
+      if (part.is_first) expand(points_[part.point], degree, value);
     }
-    for (std::size_t k = 0; k < terms; ++k) {
+    // Terms stand by degree.
+    for (std::size_t k = 0; k < monomials.size() && monomials[k] < local_field_size(degree); ++k) {
       T sum(Real(0));
       for (const Part& part : fields_[i]) {
         sum += T(part.of_terms[k].second) * coefficient(part, part.of_terms[k].first);

@@ -158,6 +158,10 @@ class OperationList {
 OperationList needed_operations(std::size_t inputs, std::vector<Operation> operations,
                                 std::vector<std::size_t> outputs, bool has_time);
 
+/// What moves a position: in series the variables alone, because the time is a number, and in
+/// expansions in the time everything.
+enum class FieldMotion { with_variables, with_time };
+
 /// The list for series of an order: each field is expanded about the constant terms of its
 /// position,
 ///
@@ -167,7 +171,8 @@ OperationList needed_operations(std::size_t inputs, std::vector<Operation> opera
 /// monomials (r - r_0)^alpha, and sums of such fields become one operation, so that the polynomials
 /// of all forces are summed before anything is multiplied. Values that only such positions needed
 /// for their slices keep their constant terms. A list without fields is returned as it is.
-OperationList expand_fields(const OperationList& list, int order);
+OperationList expand_fields(const OperationList& list, int order,
+                            FieldMotion motion = FieldMotion::with_variables);
 
 /// The place of x^a y^b z^c among the coefficients of a LocalField.
 constexpr std::size_t field_monomial(int a, int b, int c) {

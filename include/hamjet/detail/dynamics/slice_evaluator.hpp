@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -259,7 +260,7 @@ class SliceEvaluator {
         break;
       case OperationCode::field:
         fields_.evaluate_terms(
-            i, [this](std::size_t k) -> const T& { return *value(k); },
+            i, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
             [&](std::size_t term, const T& factor) { propagation_.factor(i, term) = factor; });
         break;
       case OperationCode::product:
