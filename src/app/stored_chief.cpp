@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "../algebra/other_units.hpp"
-#include "../dynamics/autonomy.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/studies/propagation.hpp"
 
@@ -36,7 +35,7 @@ bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b)
 
 /// Whether a jet starts when the scene does, where that matters.
 bool starts_as(const io::StoredJet& stored, const Scene& scene) {
-  if (stored.is_autonomous && is_autonomous(make_system(scene))) return true;
+  if (stored.is_autonomous && make_system(scene).is_autonomous()) return true;
   constexpr double rounding = 1e-14;
   const double start_s = stored.start_time.in<double>() * stored.units.time_s;
   const double scene_start_s = scene.start_time.in<double>() * scene.units.time_s;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "../dynamics/autonomy.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/version.hpp"
@@ -20,7 +19,7 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.units = scene.units;
   description.duration = scene.duration;
   description.start_time = scene.start_time;
-  description.is_autonomous = is_autonomous(*result.problem.system);
+  description.is_autonomous = result.problem.system->is_autonomous();
   description.nominal_initial = scene.nominal;
   description.nominal_final = run.nominal_final;
   description.components = result.problem.components;

@@ -8,7 +8,6 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
-#include "../dynamics/autonomy.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -85,7 +84,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
                          const GaussSettings& gauss, const EventCondition<Real>& condition) {
   using std::abs;
   using std::sqrt;
-  if (!is_autonomous(system)) {
+  if (!system.is_autonomous()) {
     throw Error(
         ErrorKind::usage,
         "event: the system depends on the time, must be one whose flow is the same at every "

@@ -12,8 +12,9 @@ namespace hamjet {
 std::vector<Extended> extended(const std::vector<double>& state);
 
 /// Energies in extended precision, and their changes relative to the energy at the start (absolute
-/// where that is 0). The changes are errors where the system keeps its energy. All times are those
-/// of the system's clock.
+/// where that is 0). The energy is the quantity that the system keeps, of which changes are errors;
+/// of a system that keeps none (DynamicalSystem::conserved_quantity) it is the Hamiltonian. All
+/// times are those of the system's clock.
 class EnergyError {
  public:
   EnergyError(const DynamicalSystem& system, const std::vector<double>& start,
@@ -28,7 +29,7 @@ class EnergyError {
   double terms(const std::vector<Extended>& state) const;
 
  private:
-  DifferentiableFunction<Extended> hamiltonian_;
+  DifferentiableFunction<Extended> energy_;
   Extended initial_ = 0;
 };
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "../algebra/raise_to.hpp"
-#include "../dynamics/autonomy.hpp"
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../integrators/symmetry/symmetry_reduction.hpp"
@@ -64,7 +63,7 @@ bool has_stability_limit(const IntegratorSettings& settings) {
 
 /// Whether the steps of a method are all the same linear map, whose limit is that of one step.
 bool has_constant_coefficients(const DynamicalSystem& system) {
-  return system.vector_field.is_linear_system() && is_autonomous(system);
+  return system.vector_field.is_linear_system() && system.is_autonomous();
 }
 
 /// The matrix of one step on a linear system.

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "../algebra/matrix_eigenvalues.hpp"
-#include "../dynamics/autonomy.hpp"
+#include "../dynamics/frozen_system.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"

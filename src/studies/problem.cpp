@@ -5,7 +5,6 @@
 #include <set>
 #include <string>
 
-#include "../dynamics/autonomy.hpp"
 #include "../integrators/arc_plan.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
@@ -159,7 +158,7 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
   problem.symmetry = scene.symmetry;
-  if (has_time_shift(scene.symmetry) && !is_autonomous(full)) {
+  if (has_time_shift(scene.symmetry) && !full.is_autonomous()) {
     throw Error(
         ErrorKind::scene,
         "jet.symmetry: got \"rotation-and-time\", but the forces depend on the time, so that "

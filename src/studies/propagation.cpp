@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "../dynamics/autonomy.hpp"
+#include "../dynamics/frozen_system.hpp"
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
 #include "formation/charted_jet.hpp"

@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "../../dynamics/autonomy.hpp"
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
@@ -223,7 +222,7 @@ std::string summary_json(const PropagationResult& result) {
   if (scene.start_time != ClockTime::epoch()) {
     json["start_canonical"] = scene.start_time.in<double>();
   }
-  if (!is_autonomous(*result.problem.system)) json["autonomous"] = false;
+  if (!result.problem.system->is_autonomous()) json["autonomous"] = false;
   if (result.reference) {
     const ReferenceResult& reference = *result.reference;
     std::vector<double> state(scene.nominal.size(), 0);

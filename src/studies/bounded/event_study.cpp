@@ -13,7 +13,6 @@
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
 #include "../../algebra/state_sums.hpp"
-#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -311,7 +310,7 @@ EventCondition<double> event_condition(const Scene& scene) {
 
 EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.event.has_value(), "event");
-  if (!is_autonomous(make_system(scene))) {
+  if (!make_system(scene).is_autonomous()) {
     throw Error(
         ErrorKind::scene,
         "event: the model's forces depend on the time, and the times of neighbours would be "

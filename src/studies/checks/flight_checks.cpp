@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "../../algebra/state_sums.hpp"
-#include "../../dynamics/autonomy.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/single_transfer.hpp"
@@ -46,14 +45,15 @@ FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight
   return outcome;
 }
 
-void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change) {
+void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change,
+                  ConservedQuantity kept) {
   const double limit = check.limit.value_or(largest_flown_energy_change);
   check.limit = limit;
   if (std::isfinite(change)) check.value = change;
   check.state = change <= limit ? SelfCheckState::passed : SelfCheckState::failed;
-  check.text =
-      fmt::format("the energy along the flight of {} changed by at most {:.2g} of its size",
-                  worst.name, change);
+  check.text = fmt::format("{} along the flight of {} changed by at most {:.2g} of its size",
+                           kept == ConservedQuantity::energy ? "the energy" : "Jacobi's integral",
+                           worst.name, change);
 }
 
 void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& worst,
@@ -126,7 +126,8 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     surface.text = "the model has no radius";
   }
   const SharedSystem system = make_system(scene);
-  if (energy.state != SelfCheckState::off && !is_autonomous(*system)) {
+  if (energy.state != SelfCheckState::off &&
+      system->conserved_quantity() == ConservedQuantity::none) {
     energy.state = SelfCheckState::not_applicable;
     energy.limit.reset();
     energy.text = "the forces depend on the time, so that no energy is kept";
@@ -160,7 +161,7 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
       return checks;
     }
   }
-  if (is_on(energy)) judge_energy(energy, *leaving, change);
+  if (is_on(energy)) judge_energy(energy, *leaving, change, system->conserved_quantity());
   if (is_on(surface)) judge_surface(surface, scene, *falling, lowest);
   return checks;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <variant>
 
-#include "../../dynamics/autonomy.hpp"
 #include "../descriptions/method_description.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
@@ -44,7 +43,7 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
 }
 
 ZonalGravity orbit_field(const Scene& scene) {
-  if (!is_autonomous(make_system(scene))) {
+  if (!make_system(scene).is_autonomous()) {
     throw Error(ErrorKind::scene,
                 "model: its forces depend on the time, must be zonal-gravity or kepler for flow "
                 "boxes, nodal sections and frozen orbits, which need the flow to be the same at "

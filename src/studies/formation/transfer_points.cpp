@@ -10,7 +10,7 @@
 
 #include "../../algebra/raise_to.hpp"
 #include "../../algebra/state_sums.hpp"
-#include "../../dynamics/autonomy.hpp"
+#include "../../dynamics/frozen_system.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"

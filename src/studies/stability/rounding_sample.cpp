@@ -12,7 +12,7 @@
 #include <span>
 #include <utility>
 
-#include "../../dynamics/autonomy.hpp"
+#include "../../dynamics/frozen_system.hpp"
 #include "../descriptions/method_description.hpp"
 #include "../integration.hpp"
 #include "../thinned_list.hpp"

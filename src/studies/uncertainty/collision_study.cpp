@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/taylor_flow.hpp"
 #include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
@@ -290,7 +289,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   first_order.order = 1;
   const EncounterTrajectories linear(first_order);
   std::vector<ClosestApproach> approaches;
-  if (is_autonomous(*problem.system)) {
+  if (problem.system->is_autonomous()) {
     approaches = closest_approaches(lower);
   } else {
     result.warnings.emplace_back(

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../../../dynamics/autonomy.hpp"
+#include "../../../dynamics/frozen_system.hpp"
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../checks/flight_checks.hpp"
 #include "../../formation_scale.hpp"
