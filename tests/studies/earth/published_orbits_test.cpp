@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "hamjet/scene/scene_reader.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "studies/exact_flow.hpp"
+#include "support/temporary_directory.hpp"
+
+// Orbits about the real Earth against what other programs have published, and against positions of
+// real satellites. None of them shares code with this one.
+
+namespace hamjet {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Rows of the IERS's finals2000A (Bulletin A) of the days about a scene: date, modified Julian
+/// date, pole, UT1 - UTC.
+constexpr const char* days_of_may_2023 =
+    "23 514 60078.00 I  0.052351 0.000021  0.489072 0.000012  I-0.0405224 0.0000054\n"
+    "23 515 60079.00 I  0.055852 0.000021  0.490657 0.000013  I-0.0417858 0.0000054\n"
+    "23 516 60080.00 I  0.059212 0.000021  0.492162 0.000013  I-0.0431008 0.0000055\n"
+    "23 517 60081.00 I  0.062109 0.000021  0.493473 0.000024  I-0.0443123 0.0000053\n"
+    "23 518 60082.00 I  0.064533 0.000021  0.494606 0.000024  I-0.0452763 0.0000050\n"
+    "23 519 60083.00 I  0.066929 0.000021  0.495640 0.000024  I-0.0459527 0.0000049\n"
+    "23 520 60084.00 I  0.069369 0.000017  0.496688 0.000015  I-0.0462785 0.0000054\n";
+
+/// Where the chief of a scene is after a time, km along the axes of GCRF.
+Vector3d flown_km(const Scene& scene, double seconds) {
+  const double time = seconds / scene.units.time_s;
+  const std::vector<double> end =
+      exact_flow(make_system(scene), scene.nominal, scene.start_time, time);
+  return Vector3d(end[0], end[1], end[2]) * scene.units.length_km;
+}
+
+class PublishedOrbits : public ::testing::Test {
+ protected:
+  /// A scene in a folder of its own, with files beside it.
+  Scene scene(const std::string& text) const {
+    std::ofstream(folder_.path() / "scene.toml") << text;
+    return io::read_scene(folder_.path() / "scene.toml");
+  }
+  void put(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name) << text;
+  }
+  void copy(const std::string& name) const {
+    std::filesystem::copy_file(std::filesystem::path(HAMJET_SOURCE_DIR) / "tests" / "studies" /
+                                   "earth" / name,
+                               folder_.path() / name);
+  }
+
+ private:
+  test::TemporaryDirectory folder_;
+};
+
+// GMAT R2026A: the field EGM96 to 2 x 2, Sun and Moon as point masses by DE440. A metre after a day
+// is what ERFA's short series for the Moon (1e-4 of its position) and GMAT's precession leave.
+TEST_F(PublishedOrbits, OfGmatWithSunAndMoon) {
+  put("finals.txt", days_of_may_2023);
+  const Scene orbit = scene(R"(
+[system]
+model = "earth"
+degree = 2
+orientation_file = "finals.txt"
+[nominal]
+epoch_utc = "2023-05-16T20:00:00"
+position_km = [20067.08545813506, -5135.56266211274, 16693.90451233602]
+velocity_km_s = [2.325052610256162, 2.345791624373619, -2.01241514184288]
+[jet]
+order = 1
+duration_s = 259200
+)");
+  const Vector3d one_day(20621.71445789771, -4571.059987593672, 16189.12316886496);
+  const Vector3d three_days(21655.07797171256, -3426.884794460414, 15117.08342281085);
+  EXPECT_LE((flown_km(orbit, 86400) - one_day).norm(), 1e-3);
+  EXPECT_LE((flown_km(orbit, 3 * 86400) - three_days).norm(), 3e-3);
+}
+
+// GMAT: the field JGM-3 to 12 x 12, no other bodies, a day from J2000 at 12:00 of TAI.
+TEST_F(PublishedOrbits, OfGmatWithAFieldOfDegree12) {
+  copy("jgm3_to_12.gfc");
+  const Scene orbit = scene(R"(
+[system]
+model = "earth"
+gravity_file = "jgm3_to_12.gfc"
+degree = 12
+sun = false
+moon = false
+[nominal]
+axes = "EME2000"
+epoch_tai = "2000-01-01T12:00:00"
+position_km = [-2436.45, -2436.45, 6891.037]
+velocity_km_s = [5.088611, -5.088611, 0]
+[jet]
+order = 1
+duration_s = 86400
+)");
+  const Vector3d end(-5751.935197673, 4719.330857046, 2048.776230999);
+  const Vector3d flown = in_axes_of(orbit, flown_km(orbit, 86400));
+  EXPECT_LE((flown - end).norm(), 1e-5) << (flown - end).transpose();
+}
+
+}  // namespace
+}  // namespace hamjet
