@@ -3,20 +3,20 @@
 #include <algorithm>
 
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 
 /// The states carried along the flow by times that vanish at the chief, by one step of a Gauss
 /// method. The end of the step is needed as a polynomial in the step of no higher degree than the
-/// series'; a method of s stages is exact up to its order, degree 2 s.
+/// series'; a method of s stages is exact up to its order, degree 2 s. `crossing` is a
+/// time_scaled_first_order system, which does not depend on the time.
 template <class Real>
 SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
                                  const Series<Real>& time) {
   const SpacePointer& space = time.space_pointer();
-  FlowProblem<Real> flow;
-  flow.system = crossing;
-  flow.space = space;
+  FlowProblem<Real> flow{crossing, space, {}, {}, ClockTime::epoch()};
   // The variables of a flow that goes on from a jet are only counted.
   flow.variables.assign(space->variables(), 0);
   flow.duration = Real(1);

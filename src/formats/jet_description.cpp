@@ -18,6 +18,8 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.precision = scene.precision;
   description.units = scene.units;
   description.duration = scene.duration;
+  description.start_time = scene.start_time;
+  description.is_autonomous = result.problem.system->is_autonomous();
   description.nominal_initial = scene.nominal;
   description.nominal_final = run.nominal_final;
   description.components = result.problem.components;
@@ -89,6 +91,10 @@ std::vector<std::string> jet_notes(const StoredJet& description, int order) {
                                 ephemeris->time_system, ephemeris->reference_frame,
                                 ephemeris->reference_frame_epoch.empty() ? "" : " of ",
                                 ephemeris->reference_frame_epoch, ephemeris->center_name));
+  }
+  if (description.start_time != ClockTime::epoch()) {
+    notes.push_back(fmt::format("the jet starts at {:.17g} canonical after the epoch",
+                                description.start_time.in<double>()));
   }
   if (description.precision == Precision::extended) {
     notes.emplace_back("coefficients of extended precision, rounded to double precision");

@@ -8,12 +8,18 @@ std::vector<Extended> extended(const std::vector<double>& state) {
   return {state.begin(), state.end()};
 }
 
-EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start)
-    : hamiltonian_(system.hamiltonian), initial_(value(extended(start))) {}
+EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start,
+                         const ClockTime& start_time)
+    : energy_(conserved_list(system).value_or(system.hamiltonian)),
+      initial_(value(extended(start), start_time)) {}
 
-Extended EnergyError::value(const std::vector<Extended>& state) {
-  hamiltonian_.evaluate(state);
-  return hamiltonian_.value(0);
+Extended EnergyError::value(const std::vector<Extended>& state, const ClockTime& time) {
+  if (energy_.has_time()) {
+    energy_.evaluate(state, time.in<Extended>());
+  } else {
+    energy_.evaluate(state);
+  }
+  return energy_.value(0);
 }
 
 double EnergyError::relative(const Extended& difference) const {
@@ -21,15 +27,15 @@ double EnergyError::relative(const Extended& difference) const {
 }
 
 double EnergyError::terms(const std::vector<Extended>& state) const {
-  double sum = std::abs(static_cast<double>(hamiltonian_.value(0)));
+  double sum = std::abs(static_cast<double>(energy_.value(0)));
   for (std::size_t i = 0; i < state.size(); ++i) {
-    sum += std::abs(static_cast<double>(Extended(hamiltonian_.derivative(0, i) * state[i])));
+    sum += std::abs(static_cast<double>(Extended(energy_.derivative(0, i) * state[i])));
   }
   return sum;
 }
 
-double EnergyError::error(const std::vector<Extended>& state) {
-  return relative(value(state) - initial_);
+double EnergyError::error(const std::vector<Extended>& state, const ClockTime& time) {
+  return relative(value(state, time) - initial_);
 }
 
 }  // namespace hamjet

@@ -97,6 +97,11 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
 
 std::vector<ClosestApproach> closest_approaches(const EncounterProblem& problem, std::size_t most) {
   validate(problem);
+  if (!problem.system->is_autonomous()) {
+    throw Error(ErrorKind::usage,
+                "closest approach: the system depends on the time, must be one whose flow is the "
+                "same at every start");
+  }
   if (problem.order > highest_order) {
     throw Error(ErrorKind::too_large,
                 fmt::format("closest approach: series in twelve variables of order {}, at most {} "

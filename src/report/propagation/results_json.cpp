@@ -219,6 +219,10 @@ std::string summary_json(const PropagationResult& result) {
                {"nominal_file", nominal_file_json(scene)},
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
+  if (scene.start_time != ClockTime::epoch()) {
+    json["start_canonical"] = scene.start_time.in<double>();
+  }
+  if (!result.problem.system->is_autonomous()) json["autonomous"] = false;
   if (result.reference) {
     const ReferenceResult& reference = *result.reference;
     std::vector<double> state(scene.nominal.size(), 0);

@@ -26,15 +26,17 @@ struct FlightOutcome {
 
 FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  EnergyError energy(*system, flight.start);
+  EnergyError energy(*system, flight.start, flight.start_time);
   // If terms cancel, their sum is no scale for the change.
-  energy.value(extended(flight.start));
+  energy.value(extended(flight.start), flight.start_time);
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);
   FlightOutcome outcome;
-  fly_arcs(system, {flight.start}, 0, flight.time, [&](const FlightArc& arc) {
+  fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
-    const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
+    const Extended change =
+        energy.value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
+        energy.initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
     if (!(size <= outcome.energy_change)) outcome.energy_change = size;
   });
@@ -43,14 +45,15 @@ FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight
   return outcome;
 }
 
-void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change) {
+void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change,
+                  ConservedQuantity kept) {
   const double limit = check.limit.value_or(largest_flown_energy_change);
   check.limit = limit;
   if (std::isfinite(change)) check.value = change;
   check.state = change <= limit ? SelfCheckState::passed : SelfCheckState::failed;
-  check.text =
-      fmt::format("the energy along the flight of {} changed by at most {:.2g} of its size",
-                  worst.name, change);
+  check.text = fmt::format("{} along the flight of {} changed by at most {:.2g} of its size",
+                           kept == ConservedQuantity::energy ? "the energy" : "Jacobi's integral",
+                           worst.name, change);
 }
 
 void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& worst,
@@ -71,12 +74,12 @@ void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& wo
 }  // namespace
 
 std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy) {
-  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, time}};
+  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, scene.start_time, time}};
   if (with_deputy && scene.deputy) {
     const std::vector<double> deviation =
         ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
             .deviation(scene.deputy->start);
-    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), time});
+    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), scene.start_time, time});
   }
   return flights;
 }
@@ -88,11 +91,11 @@ std::optional<double> surface_limit(const Scene& scene) {
 }
 
 LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start,
-                         double time) {
+                         const ClockTime& start_time, double time) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
   LowestPoint lowest;
   try {
-    fly_arcs(system, {start}, 0, time,
+    fly_arcs(system, {start}, start_time, time,
              [&](const FlightArc& arc) { least.add(arc, place_along(arc, 0)); });
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
@@ -122,10 +125,16 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     surface.limit.reset();
     surface.text = "the model has no radius";
   }
+  const SharedSystem system = make_system(scene);
+  if (energy.state != SelfCheckState::off &&
+      system->conserved_quantity() == ConservedQuantity::none) {
+    energy.state = SelfCheckState::not_applicable;
+    energy.limit.reset();
+    energy.text = "the forces depend on the time, so that no energy is kept";
+  }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
   if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
   const Stopwatch watch(energy.seconds);
-  const SharedSystem system = make_system(scene);
   const CheckedFlight* leaving = &flights.front();
   const CheckedFlight* falling = &flights.front();
   double change = 0;
@@ -152,7 +161,7 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
       return checks;
     }
   }
-  if (is_on(energy)) judge_energy(energy, *leaving, change);
+  if (is_on(energy)) judge_energy(energy, *leaving, change, system->conserved_quantity());
   if (is_on(surface)) judge_surface(surface, scene, *falling, lowest);
   return checks;
 }

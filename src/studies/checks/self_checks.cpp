@@ -108,9 +108,14 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
   }
 }
 
+constexpr const char* no_energy = "the forces depend on the time, so that no energy is kept";
+
 void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   const EnergyAlongNominal& energy = run.energy;
   check.seconds += energy.seconds;
+  const ConservedQuantity kept = make_system(scene).conserved_quantity();
+  if (kept == ConservedQuantity::none) return not_applicable(check, no_energy);
+  const char* const name = kept == ConservedQuantity::energy ? "the energy" : "Jacobi's integral";
   const double scale = std::max(std::abs(energy.initial), energy.initial_terms / 100);
   const double value = energy.largest_change > 0 ? energy.largest_change / scale : 0;
   double limit = largest_energy_change;
@@ -122,12 +127,12 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   }
   if (judge(check, value, limit)) {
     check.text =
-        fmt::format("the energy along the nominal changed by at most {:.2g} of its size", value);
+        fmt::format("{} along the nominal changed by at most {:.2g} of its size", name, value);
   } else {
     check.text = fmt::format(
-        "the energy along the nominal changed by {:.3g} from {:.6g}: the nominal left its orbit, "
-        "through a collision or steps that are too large",
-        energy.largest_change, energy.initial);
+        "{} along the nominal changed by {:.3g} from {:.6g}: the nominal left its orbit, through a "
+        "collision or steps that are too large",
+        name, energy.largest_change, energy.initial);
   }
 }
 
