@@ -1,6 +1,6 @@
 # The layers from the bottom, a folder each in include/hamjet and src: none includes from one above
 # its own.
-set(HAMJET_LAYERS text algebra dynamics integrators maps charts poincare relative_motion uncertainty
+set(HAMJET_LAYERS text algebra dynamics astronomy integrators maps charts poincare relative_motion uncertainty
   optimal_control studies store formats scene report sweep app cli python)
 
 # Files that a unity build compiles together, of one folder: fewer compile longer from nothing and sooner

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 #include "refusal.hpp"
 
 namespace hamjet::python {
@@ -20,12 +20,12 @@ constexpr double largest_gap_s = 1e-3;
 constexpr std::int64_t picoseconds_a_second = 1'000'000'000'000;
 
 /// When the flow ends; no value without a date, or beyond the calendar.
-std::optional<io::Epoch> end_of(const io::StoredJet& jet) {
+std::optional<Epoch> end_of(const io::StoredJet& jet) {
   if (!jet.ephemeris) return std::nullopt;
-  const auto start = io::parse_epoch(jet.ephemeris->epoch);
+  const auto start = parse_epoch(jet.ephemeris->epoch);
   // Within a leap second there is nothing to count from.
   if (!start || start->picoseconds >= 86400 * picoseconds_a_second) return std::nullopt;
-  return io::later(*start, Extended(jet.duration) * Extended(jet.units.time_s));
+  return later(*start, Extended(jet.duration) * Extended(jet.units.time_s));
 }
 
 /// What dates and places are in, in words.
@@ -45,17 +45,17 @@ void require_dates_meeting(const io::StoredJet& first, const io::StoredJet& seco
                        other, frame));
   }
   const auto end = end_of(first);
-  const auto start = io::parse_epoch(second.ephemeris->epoch);
-  if (!end || !start || std::abs(io::seconds_between(*end, *start)) <= largest_gap_s) return;
+  const auto start = parse_epoch(second.ephemeris->epoch);
+  if (!end || !start || std::abs(seconds_between(*end, *start)) <= largest_gap_s) return;
   refuse(fmt::format("compose: the second jet starts at {}, must start when the first ends, {}",
-                     io::format_epoch(*start), io::format_epoch(*end)));
+                     format_epoch(*start), format_epoch(*end)));
 }
 
 std::optional<EphemerisSettings> ephemeris_at_end(const io::StoredJet& jet) {
   const auto end = end_of(jet);
   if (!end) return std::nullopt;
   EphemerisSettings settings = *jet.ephemeris;
-  settings.epoch = io::format_epoch(*end);
+  settings.epoch = format_epoch(*end);
   return settings;
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/studies/scene.hpp"
 #include "tables/scene_table.hpp"

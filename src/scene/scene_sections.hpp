@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "scene_nominal_file.hpp"
 #include "study_reader.hpp"

@@ -27,7 +27,7 @@ void check(const io::GravityField& field) {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace hamjet;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const io::ZonalChoice choice = {6, {}, [] { return io::parse_epoch("2006-01-01T06:00:00"); }};
+  const io::ZonalChoice choice = {6, {}, [] { return parse_epoch("2006-01-01T06:00:00"); }};
   fuzz::is_read([&] { fuzz::check(io::parse_gravity_field("field.gfc", text, choice)); },
                 {{ErrorKind::input_output}, {"field.gfc:"}});
   return 0;

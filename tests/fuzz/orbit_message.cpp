@@ -13,7 +13,7 @@ namespace {
 void check(const io::OrbitState& state) {
   require_finite({state.position_km.begin(), state.position_km.end()}, "position");
   require_finite({state.velocity_km_s.begin(), state.velocity_km_s.end()}, "velocity");
-  require(io::parse_epoch(io::format_epoch(state.epoch)) == state.epoch, "an epoch changes");
+  require(parse_epoch(format_epoch(state.epoch)) == state.epoch, "an epoch changes");
 }
 
 void check(const io::OrbitEphemerisMessage& message) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 
 // Conjunction Data Messages of the Consultative Committee for Space Data Systems, version 1.0, in
 // keyword = value notation (KVN). Builds with XML also read the XML notation. Source: CCSDS

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "hamjet/detail/dynamics/zonal_coefficients.hpp"
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 
 namespace hamjet::io {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 
 // Orbit messages of the Consultative Committee for Space Data Systems in keyword = value notation
 // (KVN). Versions 2.0 and 3.0 are read and written, version 1.0 is only read; builds with XML also

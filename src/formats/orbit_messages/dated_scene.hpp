@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/studies/scene.hpp"
 
 // Statements that messages of different kinds share about a scene that has an ephemeris.

@@ -1,4 +1,4 @@
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <sstream>
 #include <string>
 
-// Moments of orbit messages. Expected values: the Gregorian calendar, and Debian's copy of the list
+// Moments of the calendar. Expected values: the Gregorian calendar, and Debian's copy of the list
 // of leap seconds of the IERS.
 
-namespace hamjet::io {
+namespace hamjet {
 namespace {
 
 using std::chrono::days;
@@ -112,4 +112,4 @@ TEST(Epoch, TheTableOfLeapSecondsIsThatOfTheIers) {
 }
 
 }  // namespace
-}  // namespace hamjet::io
+}  // namespace hamjet

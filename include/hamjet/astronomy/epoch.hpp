@@ -10,7 +10,7 @@
 
 #include "hamjet/algebra/extended.hpp"
 
-namespace hamjet::io {
+namespace hamjet {
 
 /// The time systems of orbit messages in which states can be dated by adding seconds.
 enum class TimeSystem { utc, tai, tt, gps, tdb };
@@ -48,11 +48,11 @@ inline double seconds_between(const Epoch& first, const Epoch& last) {
 }
 
 /// Days of UTC that ended with a leap second, ascending: all from the introduction of leap seconds
-/// in 1972 to the last one known here, at the end of 2016. Source: IERS Bulletin C.
+/// in 1972 to the last one that ERFA knows, at the end of 2016. Source: IERS Bulletin C.
 const std::vector<std::chrono::sys_days>& days_with_leap_second();
 
 /// The first day whose leap second lies between two moments of UTC, so that counting 86 400 s per
 /// day does not lead from one to the other. No value if there is none.
 std::optional<std::chrono::sys_days> leap_second_between(const Epoch& first, const Epoch& last);
 
-}  // namespace hamjet::io
+}  // namespace hamjet

@@ -1,10 +1,11 @@
+#include "hamjet/astronomy/epoch.hpp"
+
+#include <erfa.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "hamjet/detail/formats/epoch.hpp"
-
-namespace hamjet::io {
+namespace hamjet {
 namespace {
 
 using std::chrono::day;
@@ -89,14 +90,17 @@ const std::vector<std::string_view>& time_system_names() {
 const std::vector<sys_days>& days_with_leap_second() {
   static const std::vector<sys_days> table = [] {
     std::vector<sys_days> result;
-    for (const int y : {1972, 1981, 1982, 1983, 1985, 1992, 1993, 1994, 1997, 2012, 2015}) {
-      result.push_back(sys_days(year(y) / 6 / 30));
+    double before = 0;
+    // Leap seconds stand at the ends of months. A library that is newer than this file may know
+    // more.
+    for (year_month_day first(year(1972), month(1), day(1)); first.year() < year(2100);
+         first += std::chrono::months(1)) {
+      double offset = 0;
+      eraDat(static_cast<int>(first.year()), static_cast<int>(static_cast<unsigned>(first.month())),
+             1, 0.0, &offset);
+      if (before > 0 && offset > before) result.push_back(sys_days(first) - days(1));
+      before = offset;
     }
-    for (const int y : {1972, 1973, 1974, 1975, 1976, 1977, 1978, 1979, 1987, 1989, 1990, 1995,
-                        1998, 2005, 2008, 2016}) {
-      result.push_back(sys_days(year(y) / 12 / 31));
-    }
-    std::sort(result.begin(), result.end());
     return result;
   }();
   return table;
@@ -156,4 +160,4 @@ std::optional<sys_days> leap_second_between(const Epoch& first, const Epoch& las
   return next != table.end() && *next < end.day ? std::optional(*next) : std::nullopt;
 }
 
-}  // namespace hamjet::io
+}  // namespace hamjet
