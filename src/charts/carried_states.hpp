@@ -10,7 +10,8 @@ namespace hamjet {
 
 /// The states carried along the flow by times that vanish at the chief, by one step of a Gauss
 /// method. The end of the step is needed as a polynomial in the step of no higher degree than the
-/// series'; a method of s stages is exact up to its order, degree 2 s.
+/// series'; a method of s stages is exact up to its order, degree 2 s. `crossing` is a
+/// time_scaled_first_order system, which does not depend on the time.
 template <class Real>
 SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
                                  const Series<Real>& time) {

@@ -20,9 +20,18 @@ OperationList energy_of(const DynamicalSystem& system) {
   });
 }
 
+/// At a pace of its own an orbit would meet forces of another time.
+void require_autonomous(const DynamicalSystem& system) {
+  if (system.is_autonomous()) return;
+  throw Error(ErrorKind::usage,
+              "flow at another pace: the system depends on the time, must be one whose flow is the "
+              "same at every start");
+}
+
 }  // namespace
 
 DynamicalSystem time_scaled(const DynamicalSystem& system) {
+  require_autonomous(system);
   if (system.degrees_of_freedom != n || !system.second_order) {
     throw Error(ErrorKind::usage, "flow box: the system must be that of an orbit");
   }
@@ -40,6 +49,7 @@ DynamicalSystem time_scaled(const DynamicalSystem& system) {
 }
 
 DynamicalSystem time_scaled_first_order(const DynamicalSystem& system) {
+  require_autonomous(system);
   OperationList field = record(2 * n + 2, [&](std::span<const Expression> z) {
     const std::vector<Expression> slopes = recorded_outputs(system.vector_field, without_scale(z));
     std::vector<Expression> result;

@@ -16,7 +16,8 @@ inline constexpr double scale_parameter_unit = 1024;
 ///
 /// in (q, m; v, 0), four degrees of freedom. Every orbit has a constant pace of its own, so that
 /// orbits of different periods can be integrated side by side over the same number of revolutions:
-/// their shear along the orbit is contained in c alone, in closed form.
+/// their shear along the orbit is contained in c alone, in closed form. Throws Error(usage) for a
+/// system that depends on the time, as the next function does.
 DynamicalSystem time_scaled(const DynamicalSystem& system);
 
 /// The same orbits as a system of first order, at paces that may be zero at the chief: z' = c f(z),

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "dynamics/harmonic_oscillator.hpp"
+#include "support/errors.hpp"
 #include "support/flow.hpp"
 
 namespace hamjet {
@@ -20,6 +23,7 @@ FlowProblem<double> problem_alone() {
   const auto earlier = integrate_gauss<double>(problem, test::adaptive(), statistics);
   problem.initial_state = test::final_state(earlier);
   problem.initial_jet = earlier;
+  problem.start_time = problem.start_time + problem.duration;
   problem.duration = 0.5;
   system = {};
   return problem;
@@ -34,6 +38,38 @@ TEST(FlowProblem, OutlivesAllThatItWasMadeFrom) {
   EXPECT_NEAR(jet[0][2], std::sin(0.75), 1e-15);
   EXPECT_NEAR(jet[1][1], -std::sin(0.75), 1e-15);
   EXPECT_NEAR(jet[1][0], -std::sin(0.75), 1e-15);
+}
+
+// The time at which a state stands has no default, and no number is taken for it.
+template <class Problem>
+concept DoesWithoutStartTime = requires(SharedSystem system, SpacePointer space) {
+  Problem{system, space, {0, 1}, {1.0, 0.0}, 0.25};
+};
+template <class Problem>
+concept TakesStartTime = requires(SharedSystem system, SpacePointer space) {
+  Problem{system, space, {0, 1}, {1.0, 0.0}, ClockTime(0.5), 0.25};
+};
+static_assert(TakesStartTime<FlowProblem<double>>);
+static_assert(!DoesWithoutStartTime<FlowProblem<double>>);
+static_assert(!std::is_default_constructible_v<FlowProblem<double>>);
+static_assert(!std::is_default_constructible_v<ClockTime>);
+static_assert(!std::is_convertible_v<double, ClockTime>);
+
+TEST(FlowProblem, StartsAtAFiniteTime) {
+  FlowProblem<double> problem = problem_alone();
+  for (const double bad : {std::numeric_limits<double>::infinity(), std::nan("")}) {
+    problem.start_time = ClockTime(bad);
+    test::expect_error(ErrorKind::numerical, "the start time is not finite",
+                       [&] { validate(problem); });
+  }
+}
+
+// Durations are added without the rounding of double precision.
+TEST(ClockTime, CountsOn) {
+  ClockTime time(1e9);
+  for (int k = 0; k < 1000; ++k) time = time + 1e-9;
+  EXPECT_DOUBLE_EQ((time + -1e9).in<double>(), 1e-6);
+  EXPECT_TRUE(ClockTime::epoch() + 2.0 == ClockTime(2));
 }
 
 TEST(FlowProblem, CopiesShareTheSystem) {

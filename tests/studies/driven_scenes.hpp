@@ -27,6 +27,16 @@ inline Scene driven_chief(int order) {
   return scene;
 }
 
+/// The same chief past its apogee, at the time at which it is there: it comes down to its perigee
+/// some five units of time later.
+inline constexpr double descending_after = 6;
+inline Scene descending_chief(int order) {
+  Scene scene = driven_chief(order);
+  scene.nominal = test::driven_flight(scene.nominal, late, descending_after);
+  scene.start_time = ClockTime(late + descending_after);
+  return scene;
+}
+
 /// A deputy a few thousandths of the distance from the chief.
 inline std::vector<double> driven_deputy() {
   std::vector<double> state = driven_chief(1).nominal;

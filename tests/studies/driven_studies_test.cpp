@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "algebra/state_sums.hpp"
@@ -33,9 +35,8 @@ namespace {
 using test::apart;
 using test::driven_flight;
 
-/// The driven chief with a transfer over two kilometres.
-Scene with_transfer(std::vector<double> times) {
-  Scene scene = driven_chief(4);
+/// A driven chief with a transfer over two kilometres.
+Scene with_transfer(std::vector<double> times, Scene scene = driven_chief(4)) {
   TransferSettings settings;
   settings.start = {{900, -1200, 500}, {0.3, -0.2, 0.4}};
   settings.end = ArrivalState({-400, 800, -600}, {0, 0, 0});
@@ -46,7 +47,7 @@ Scene with_transfer(std::vector<double> times) {
 }
 
 std::vector<double> chief_at(const Scene& scene, double time) {
-  return driven_flight(scene.nominal, late, time);
+  return driven_flight(scene.nominal, scene.start_time.in<double>(), time);
 }
 
 /// The flight of the scene's deputy with impulses at their times, to a time.
@@ -57,7 +58,7 @@ class ImpulsiveFlight {
   }
 
   void fly_to(double time) {
-    state_ = driven_flight(state_, late + now_, time - now_);
+    state_ = driven_flight(state_, scene_.start_time.in<double>() + now_, time - now_);
     now_ = time;
   }
   void change(const Eigen::Vector3d& change_m_s) {
@@ -82,9 +83,7 @@ class ImpulsiveFlight {
 constexpr double flown_m = 3e-3;
 
 TEST(DrivenStudies, Transfer) {
-  Scene scene = with_transfer({1.0, 2.6, 3.5});
-  scene.system.radius_km = 5000;
-  scene.transfer->keep_out_m = Eigen::Vector3d(100, 200, 100);
+  const Scene scene = with_transfer({1.0, 2.6, 3.5});
   const TransferResult result = study_transfer(scene);
   ASSERT_EQ(result.points.size(), 3U);
   EXPECT_LT(result.chief_error_m, flown_m);
@@ -101,13 +100,7 @@ TEST(DrivenStudies, Transfer) {
     }
     ImpulsiveFlight flight(scene);
     flight.change(point.best().start_change_m_s);
-    double lowest = 1;
-    for (int k = 1; k <= 400; ++k) {
-      flight.fly_to(point.time * k / 400);
-      lowest = std::min(lowest, position_of(flight.state()).norm());
-    }
-    ASSERT_TRUE(point.lowest.has_value());
-    EXPECT_NEAR(*point.lowest, lowest, 1e-5);
+    flight.fly_to(point.time);
     // The velocity at the end is right for the polynomials alone, to a part of their miss.
     flight.change(point.best().end_change_m_s);
     EXPECT_LT((flight.relative().velocity_m_s - scene.transfer->end.velocity_m_s).norm(), 1e-3);
@@ -363,16 +356,68 @@ TEST(DrivenStudies, ArcsAreThoseOfOneRun) {
   for (const double error : errors) EXPECT_LT(error, 1e-10);
 }
 
-TEST(DrivenStudies, FlightChecksAskNoEnergy) {
-  Scene scene = driven_chief(1);
-  scene.system.radius_km = 100;
-  const std::vector<SelfCheck> checks = flight_checks(scene, flights_of(scene, 8, false));
-  EXPECT_EQ(checks.at(0).state, SelfCheckState::not_applicable);
-  double lowest = 1;
-  for (int k = 0; k <= 4000; ++k) {
-    lowest = std::min(lowest, position_of(chief_at(scene, 8.0 * k / 4000)).norm());
+/// The least distance from the centre of a flight with impulses to a time.
+double lowest_of(const Scene& scene, const std::vector<Impulse>& impulses, double end) {
+  ImpulsiveFlight flight(scene);
+  double lowest = std::numeric_limits<double>::infinity();
+  double now = 0;
+  const auto fly_to = [&](double time) {
+    constexpr int places = 300;
+    for (int k = 1; k <= places; ++k) {
+      flight.fly_to(now + (time - now) * k / places);
+      lowest = std::min(lowest, position_of(flight.state()).norm());
+    }
+    now = time;
+  };
+  for (const Impulse& impulse : impulses) {
+    if (impulse.time > now) fly_to(impulse.time);
+    flight.change(impulse.change_m_s);
   }
-  EXPECT_NEAR(*checks.at(1).value, lowest * scene.units.length_km, 1);
+  if (end > now) fly_to(end);
+  return lowest;
+}
+
+/// The kilometres below the surface that a refusal tells.
+double depth_in(const std::string& forbidden) {
+  const std::string before = "passes ";
+  const std::size_t place = forbidden.find(before);
+  return place == forbidden.npos ? -1 : std::stod(forbidden.substr(place + before.size()));
+}
+
+// A surface above the perigee: all ways down to it are told how far below they pass.
+TEST(DrivenStudies, WaysBelowTheSurface) {
+  Scene scene = with_transfer({5.6}, descending_chief(4));
+  scene.system.radius_km = 7200;
+  scene.transfer->waypoints = {{1.4, {300, -900, 200}}};
+  scene.transfer->impulses = TransferImpulses::optimal;
+  const TransferResult result = study_transfer(scene);
+  const TransferPoint& point = result.points.at(0);
+  ASSERT_TRUE(point.has_answer() && point.lowest) << point.failure;
+  const double length_km = scene.units.length_km;
+  EXPECT_NEAR(*point.lowest, lowest_of(scene, {{0, point.best().start_change_m_s}}, 5.6), 1e-5);
+  const WaypointPlan& plan = result.waypoints->plans.at(0);
+  ASSERT_EQ(plan.impulses.size(), 3U);
+  EXPECT_NEAR(depth_in(plan.forbidden), 7200 - length_km * lowest_of(scene, plan.impulses, 5.6),
+              0.05)
+      << plan.forbidden;
+  ASSERT_TRUE(result.optimal && result.optimal->plan);
+  const ImpulsePlan& optimal = *result.optimal->plan;
+  EXPECT_NEAR(depth_in(optimal.forbidden),
+              7200 - length_km * lowest_of(scene, optimal.impulses, 5.6), 0.05)
+      << optimal.forbidden;
+}
+
+TEST(DrivenStudies, FlightChecksAskNoEnergy) {
+  Scene scene = descending_chief(1);
+  scene.system.radius_km = 100;
+  const std::vector<SelfCheck> checks = flight_checks(scene, flights_of(scene, 7, false));
+  EXPECT_EQ(checks.at(0).state, SelfCheckState::not_applicable);
+  double lowest = 2;
+  for (int k = 0; k <= 4000; ++k) {
+    lowest = std::min(lowest, position_of(chief_at(scene, 7.0 * k / 4000)).norm());
+  }
+  EXPECT_LT(lowest, 1.1);
+  EXPECT_NEAR(*checks.at(1).value, lowest * scene.units.length_km, 0.05);
 }
 
 TEST(DrivenStudies, WhatNeedsAutonomyIsRefused) {
