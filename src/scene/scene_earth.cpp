@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "../studies/earth_system.hpp"
+#include "../store/sealed_summary.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/formats/earth_orientation_file.hpp"
 #include "scene_earth_field.hpp"
 #include "scene_sections.hpp"
 
@@ -57,8 +58,8 @@ Date read_date(const TableReader& root) {
   const auto given = given_epochs(nominal);
   const auto of_file = settings_of_orbit_file(nominal);
   if (given.size() > 1) {
-    nominal.fail(given[1], fmt::format("a second epoch, got {} and {}, {}", given[0], given[1],
-                                       right_epoch));
+    nominal.fail(given[1],
+                 fmt::format("a second epoch, got {} and {}, {}", given[0], given[1], right_epoch));
   }
   if (of_file) {
     if (!given.empty()) {
@@ -82,21 +83,18 @@ Date read_date(const TableReader& root) {
     return {read_epoch(ephemeris, "epoch"),
             static_cast<TimeSystem>(ephemeris.choice("time_system"))};
   }
-  nominal.fail("", fmt::format("no epoch, got a scene of the model earth without one, {}",
-                               right_epoch));
+  nominal.fail(
+      "", fmt::format("no epoch, got a scene of the model earth without one, {}", right_epoch));
 }
 
 void read_orientation(const TableReader& system, EarthSettings& earth) {
   if (!system.has("orientation_file")) return;
   earth.orientation_file = system.text("orientation_file");
-  constexpr std::size_t most_bytes = std::size_t{1} << 26;
-  const auto days = parse_finals2000a(printable_path(system.path_beside_scene("orientation_file")),
-                                      system.content_beside_scene("orientation_file", most_bytes));
-  for (const EarthOrientationDay& day : days) {
-    earth.orientation.push_back({day.day.time_since_epoch().count(), day.ut1_minus_utc_s,
-                                 day.pole_x_arcsec, day.pole_y_arcsec, day.offset_x_arcsec,
-                                 day.offset_y_arcsec, day.is_predicted});
-  }
+  const std::string text =
+      system.content_beside_scene("orientation_file", largest_earth_orientation_bytes);
+  earth.orientation_checksum = fmt::format("{:08x}", record_of({}, text).crc32);
+  earth.orientation = std::make_shared<const EarthOrientation>(
+      read_earth_orientation(printable_path(system.path_beside_scene("orientation_file")), text));
 }
 
 }  // namespace
@@ -121,11 +119,17 @@ std::vector<SceneKey> earth_keys() {
 std::vector<SceneKey> epoch_keys() {
   std::vector<SceneKey> keys;
   for (const EpochKey& key : epoch_key_names) {
-    keys.push_back({key.name, form_of_epoch(), absent::other("another one, for the model earth"),
-                    "of the start", {orbits}});
+    keys.push_back({key.name,
+                    form_of_epoch(),
+                    absent::other("another one, for the model earth"),
+                    "of the start",
+                    {orbits}});
   }
-  keys.push_back({"axes", form::choice(axes_names), absent::value("GCRF"),
-                  "in which the model earth is given orbits", {orbits}});
+  keys.push_back({"axes",
+                  form::choice(axes_names),
+                  absent::value("GCRF"),
+                  "in which the model earth is given orbits",
+                  {orbits}});
   return keys;
 }
 
@@ -177,8 +181,8 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
     const double usual = mu;
     mu = system.positive_number(key);
     if (std::abs(mu / usual - 1) > mu_margin) {
-      system.warn(key, fmt::format("another body's mu, got {}, should be near {} km^3/s^2", mu,
-                                   usual));
+      system.warn(key,
+                  fmt::format("another body's mu, got {}, should be near {} km^3/s^2", mu, usual));
     }
   };
   read_mu("mu_sun_km3_s2", earth.mu_sun_km3_s2, earth.has_sun);
@@ -203,7 +207,7 @@ CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
     moment = instant_of(parse_epoch(file->ephemeris.epoch).value(),
                         system_named(file->ephemeris.time_system));
   }
-  const AxesChange change = axes_change(*axes, EarthAxes::gcrf, moment, earth_orientation(earth));
+  const AxesChange change = axes_change(*axes, EarthAxes::gcrf, moment, earth.orientation);
   CartesianState result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.position_km[i] = result.velocity_km_s[i] = 0;
@@ -251,17 +255,6 @@ void set_span_of_earth(Scene& scene) {
   EarthSettings& earth = *scene.system.earth;
   earth.first_s = first * scene.units.time_s;
   earth.last_s = last * scene.units.time_s;
-}
-
-void keep_orientation_of_span(EarthSettings& earth) {
-  // Interpolation and flights a little beyond take a few days more.
-  constexpr long beyond = 4;
-  const long day = parse_epoch(earth.epoch_tt)->day.time_since_epoch().count();
-  const long first_day = day + static_cast<long>(std::floor(earth.first_s / 86400)) - beyond;
-  const long last_day = day + static_cast<long>(std::ceil(earth.last_s / 86400)) + beyond;
-  std::erase_if(earth.orientation, [&](const OrientationRow& row) {
-    return row.day < first_day || row.day > last_day;
-  });
 }
 
 }  // namespace hamjet::io

@@ -36,7 +36,4 @@ EphemerisSettings ephemeris_of_earth(const TableReader& root, const EarthSetting
 /// Sets the span in which the scene flies, from what has been read of it.
 void set_span_of_earth(Scene& scene);
 
-/// Keeps of the table of orientation the days that the span needs.
-void keep_orientation_of_span(EarthSettings& earth);
-
 }  // namespace hamjet::io

@@ -90,7 +90,8 @@ double Nominal::told_time(double time) const {
 const TableDescription& units_table() {
   static const TableDescription table = {
       {{"length_km", form::positive(), absent::refused(), "canonical unit of length"}},
-      "Canonical numbers are read and told in it. `run` and `compare` compute in it, all else in the "
+      "Canonical numbers are read and told in it. `run` and `compare` compute in it, all else in "
+      "the "
       "chief's own: its distance at the start."};
   return table;
 }

@@ -7,8 +7,8 @@
 #include "document/scene_document.hpp"
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
-#include "scene_name.hpp"
 #include "scene_earth.hpp"
+#include "scene_name.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
 
@@ -126,7 +126,6 @@ Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) 
       [&](const TableReader& tables) {
         Scene scene = read_flow_jet(tables, units);
         set_span_of_earth(scene);
-        if (scene.system.earth) keep_orientation_of_span(*scene.system.earth);
         return scene;
       },
       read_canonical_transformation, read_energy_conservation, read_optimal_control};

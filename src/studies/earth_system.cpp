@@ -1,11 +1,10 @@
 #include "earth_system.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
 
-#include "../dynamics/fields/point_mass_field.hpp"
 #include "../dynamics/fields/spherical_harmonic_field.hpp"
 #include "hamjet/astronomy/body_position.hpp"
 #include "hamjet/astronomy/earth_rotation.hpp"
@@ -16,29 +15,16 @@ namespace {
 
 SphericalHarmonicCoefficients coefficients_of(const EarthSettings& earth) {
   SphericalHarmonicCoefficients result(earth.degree, earth.order);
-  std::size_t place = 0;
   for (int n = 0; n <= earth.degree; ++n) {
-    for (int m = 0; m <= n; ++m, ++place) {
-      if (m > earth.order) continue;
-      result.C(n, m) = earth.cosines.at(place);
-      result.S(n, m) = earth.sines.at(place);
+    for (int m = 0; m <= std::min(n, earth.order); ++m) {
+      result.C(n, m) = earth.field->C(n, m);
+      result.S(n, m) = earth.field->S(n, m);
     }
   }
   return result;
 }
 
 }  // namespace
-
-std::shared_ptr<const EarthOrientation> earth_orientation(const EarthSettings& earth) {
-  if (earth.orientation.empty()) return nullptr;
-  std::vector<EarthOrientationDay> days;
-  for (const OrientationRow& row : earth.orientation) {
-    days.push_back({std::chrono::sys_days(std::chrono::days(row.day)), row.ut1_minus_utc_s,
-                    row.pole_x_arcsec, row.pole_y_arcsec, row.offset_x_arcsec, row.offset_y_arcsec,
-                    row.is_predicted});
-  }
-  return std::make_shared<const EarthOrientation>(earth.orientation_file, days);
-}
 
 DynamicalSystem earth_system(const SystemSettings& settings, double canonical_radius) {
   const EarthSettings& earth = settings.earth.value();
@@ -51,7 +37,7 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   gravity.potential =
       std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, coefficients_of(earth));
   gravity.axes =
-      std::make_shared<const EarthRotation>(epoch, time_s, first, last, earth_orientation(earth));
+      std::make_shared<const EarthRotation>(epoch, time_s, first, last, earth.orientation);
   const auto add = [&](bool acts, PerturbingBody body, double mu_km3_s2) {
     if (!acts) return;
     const double mu = mu_km3_s2 / settings.mu_km3_s2;

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <memory>
-
-#include "hamjet/astronomy/earth_orientation.hpp"
 #include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
@@ -12,8 +9,5 @@ namespace hamjet {
 /// `canonical_radius` and mu is 1; its clock is 0 at the scene's epoch. Throws as EarthRotation and
 /// BodyPosition.
 DynamicalSystem earth_system(const SystemSettings& settings, double canonical_radius);
-
-/// The table of orientation of a scene; null without one. Throws as EarthOrientation.
-std::shared_ptr<const EarthOrientation> earth_orientation(const EarthSettings& earth);
 
 }  // namespace hamjet

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "../dynamics/fields/spherical_harmonic_coefficients.hpp"
 #include "descriptions/settings_fields.hpp"
 #include "hamjet/studies/comparison.hpp"
 #include "hamjet/version.hpp"
@@ -44,6 +45,16 @@ class KeyText {
       if (J[n] != 0) text_ += fmt::format("J{} {} ", n, J[n]);
     }
   }
+  void write(const std::shared_ptr<const SphericalHarmonicCoefficients>& field) {
+    if (!field) return;
+    for (int n = 0; n <= field->degree(); ++n) {
+      for (int m = 0; m <= std::min(n, field->order()); ++m) {
+        text_ += fmt::format("{} {} ", field->C(n, m), field->S(n, m));
+      }
+    }
+  }
+  /// The checksum beside it stands for it.
+  void write(const std::shared_ptr<const EarthOrientation>&) {}
   template <class Value>
   void write(const std::optional<Value>& value) {
     if (!value) {
