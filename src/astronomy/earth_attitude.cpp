@@ -19,12 +19,9 @@ constexpr const char* turns_per_day = "1.00273781191135448";
 constexpr double radians_per_s = ERFA_D2PI * 1.00273781191135448 / ERFA_DAYSEC;
 
 void pole_at(double day, double fraction, double* out) {
-  double matrix[3][3];
-  eraPnm06a(day, fraction, matrix);
-  eraBpn2xy(matrix, &out[0], &out[1]);
-  const double s = eraS06(day, fraction, out[0], out[1]);
+  double s = 0;
+  eraXys06a(day, fraction, &out[0], &out[1], &s);
   out[2] = eraSp00(day, fraction) - s;
-  out[3] = eraEors(matrix, s);
 }
 
 std::optional<PiecewiseHermite> orientation_between(const Instant& epoch, const Extended& unit_s,
@@ -54,7 +51,7 @@ EarthAttitude::EarthAttitude(const Instant& epoch, const Extended& unit_s, doubl
     : first_(first),
       last_(last),
       unit_s_(convert<double>(unit_s)),
-      pole_(sampled_days(epoch, unit_s, first, last, 4, pole_at)),
+      pole_(sampled_days(epoch, unit_s, first, last, 3, pole_at)),
       orientation_(orientation_between(epoch, unit_s, first, last, orientation.get())) {
   if (!orientation_) {
     const double ut1_minus_tt = -tai_minus_utc(epoch_of(epoch, TimeSystem::utc)) - ERFA_TTMTAI;
@@ -88,7 +85,7 @@ void EarthAttitude::expand_as(const Real& t, int most, Series<Real>& out) const 
   require_within_span(convert<double>(t), first_, last_, unit_s_);
   using Coefficients = PiecewiseHermite::Coefficients<Real>;
   const auto count = static_cast<std::size_t>(std::min(most, PiecewiseHermite::degree)) + 1;
-  std::array<Coefficients, 4> pole;
+  std::array<Coefficients, 3> pole;
   pole_.expand(t, most, pole.data());
   std::array<Coefficients, 5> orientation{};
   if (orientation_) {
@@ -103,7 +100,6 @@ void EarthAttitude::expand_as(const Real& t, int most, Series<Real>& out) const 
     out.longitude[k] = pole[2][k] + orientation[0][k];
     out.pole_x[k] = orientation[1][k];
     out.pole_y[k] = orientation[2][k];
-    out.origins[k] = pole[3][k];
   }
 }
 

@@ -19,7 +19,7 @@ class EarthAttitude {
   template <class Real>
   struct Series {
     using Coefficients = PiecewiseHermite::Coefficients<Real>;
-    Coefficients X, Y, longitude, pole_x, pole_y, origins;
+    Coefficients X, Y, longitude, pole_x, pole_y;
   };
 
   /// Times are counted from `epoch` in `unit_s` and go from `first` to `last`. Without a table UT1

@@ -15,7 +15,8 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hamjetConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hamjetConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/hamjetConfig.cmake
-  ${PROJECT_BINARY_DIR}/hamjetConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake DESTINATION ${package})
+  ${PROJECT_BINARY_DIR}/hamjetConfigVersion.cmake ${CMAKE_CURRENT_LIST_DIR}/FindClp.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FindErfa.cmake DESTINATION ${package})
 
 if(HAMJET_COMMAND)
   install(TARGETS hamjet_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

@@ -73,20 +73,10 @@ void SphericalHarmonicField::expand_in(std::size_t count, const Real* x, const R
         using hamjet::sqrt;
         const P inverse = P(Real(1)) / sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
         const std::array<P, 3> unit = {r[0] * inverse, r[1] * inverse, r[2] * inverse};
-        static thread_local std::vector<P> central;
-        central.resize(local_field_size(degree));
-        expand_inverse_distance(unit, degree, central.data());
-        if (coefficients_.degree() > 0) {
-          sums.expand(unit, P(Real(radius_)) * inverse, degree, c);
-        } else {
-          std::fill_n(c, central.size(), P());
-        }
-        const P central_factor(Real(coefficients_.C(0, 0)));
+        sums.expand(unit, P(Real(radius_)) * inverse, degree, c);
         P scale = P(Real(mu_)) * inverse;
         for (int n = 0; n <= degree; ++n) {
-          for (std::size_t k = local_first(n); k < local_first(n + 1); ++k) {
-            c[k] = scale * (central_factor * central[k] + c[k]);
-          }
+          for (std::size_t k = local_first(n); k < local_first(n + 1); ++k) c[k] *= scale;
           scale *= inverse;
         }
       });
