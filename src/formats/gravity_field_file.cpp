@@ -7,8 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
+#include <tuple>
 
+#include "../dynamics/fields/spherical_harmonic_coefficients.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
@@ -43,6 +46,39 @@ class Reader {
       : file_{name}, text_(text), epoch_(choice.epoch) {
     for (int n = ZonalCoefficients::lowest; n <= choice.highest; ++n) wanted_.push_back(n);
     if (!choice.degrees.empty()) wanted_ = choice.degrees;
+  }
+
+  Reader(const std::string& name, std::string_view text, const HarmonicChoice& choice)
+      : file_{name},
+        text_(text),
+        epoch_(choice.epoch),
+        degree_(choice.degree),
+        order_(choice.order) {
+    for (int n = ZonalCoefficients::lowest; n <= std::min(degree_, ZonalCoefficients::highest);
+         ++n) {
+      wanted_.push_back(n);
+    }
+  }
+
+  HarmonicField read_harmonics() {
+    HarmonicField result = {read(), {}};
+    result.coefficients = std::make_shared<SphericalHarmonicCoefficients>(degree_, order_);
+    for (int n = 2; n <= degree_; ++n) {
+      for (int m = 0; m <= std::min(n, order_); ++m) {
+        const Extended norm = norm_of(n, m);
+        const auto value = [&](Harmonic which) {
+          const auto found = harmonics_.find({n, m, which});
+          if (found == harmonics_.end()) {
+            fail(fmt::format("the file ends without {}, which is asked for; its max_degree is {}",
+                             GravityCoefficient(n, m, which).name(), field_.max_degree));
+          }
+          return static_cast<double>(Extended(found->second.at(file_, field_.epoch) / norm));
+        };
+        result.coefficients->C(n, m) = value(Harmonic::cosine);
+        if (m > 0) result.coefficients->S(n, m) = value(Harmonic::sine);
+      }
+    }
+    return result;
   }
 
   GravityField read() {
@@ -180,10 +216,38 @@ class Reader {
                       "and that at most the max_degree of {}, got {} and {}",
                       key, field_.max_degree, in_quotes(words_[1]), in_quotes(words_[2])));
     }
-    if (*order != 0) return;
     if (*degree == 0) return check_constant_mass();
+    if (*degree <= degree_ && *order <= order_) take_harmonics(*degree, *order);
+    if (*order != 0) return;
     if (*degree > 1 && std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
     coefficients_.try_emplace(*degree, *degree).first->second.add(file_, line_, words_, format_);
+  }
+
+  void take_harmonics(int degree, int order) {
+    if (degree == 1) {
+      if (order == 0 ||
+          (gravity_number(words_[3]) == Extended(0) && gravity_number(words_[4]) == Extended(0))) {
+        return;
+      }
+      fail(fmt::format(
+          "C(1,1) and S(1,1): must be 0, for the origin must be on the axis, got {} and "
+          "{}",
+          in_quotes(words_[3]), in_quotes(words_[4])));
+    }
+    for (const Harmonic which : {Harmonic::cosine, Harmonic::sine}) {
+      if (which == Harmonic::sine && order == 0) continue;
+      harmonics_.try_emplace({degree, order, which}, degree, order, which)
+          .first->second.add(file_, line_, words_, format_);
+    }
+  }
+
+  /// What a coefficient of the file is a multiple of: 1, or 1/N with the norm N of full
+  /// normalisation, N^2 = (2 - delta_m0) (2n + 1) (n - m)!/(n + m)!.
+  Extended norm_of(int n, int m) const {
+    if (is_normalized_) return Extended(1);
+    Extended squared = Extended(m == 0 ? 1 : 2) * (2 * n + 1);
+    for (int k = n - m + 1; k <= n + m; ++k) squared /= k;
+    return sqrt(squared);
   }
 
   /// C(0,0) must be 1 and constant, because the mass is given by the gravity constant.
@@ -198,8 +262,9 @@ class Reader {
 
   /// Asks for the epoch, once, if one of the coefficients varies with time.
   void find_epoch() {
-    const bool is_needed = std::any_of(coefficients_.begin(), coefficients_.end(),
-                                       [](const auto& entry) { return entry.second.varies(); });
+    const auto varies = [](const auto& entry) { return entry.second.varies(); };
+    const bool is_needed = std::any_of(coefficients_.begin(), coefficients_.end(), varies) ||
+                           std::any_of(harmonics_.begin(), harmonics_.end(), varies);
     if (is_needed && epoch_) field_.epoch = epoch_();
   }
 
@@ -246,6 +311,9 @@ class Reader {
   bool is_normalized_ = true;
   /// C(1,0) and the coefficients that are asked for.
   std::map<int, GravityCoefficient> coefficients_;
+  int degree_ = -1;  ///< of the harmonics that are asked for; -1 if none are
+  int order_ = -1;
+  std::map<std::tuple<int, int, Harmonic>, GravityCoefficient> harmonics_;
   GravityField field_;
 };
 
@@ -254,6 +322,11 @@ class Reader {
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice) {
   return Reader(name, text, choice).read();
+}
+
+HarmonicField parse_harmonic_field(const std::string& name, std::string_view text,
+                                   const HarmonicChoice& choice) {
+  return Reader(name, text, choice).read_harmonics();
 }
 
 GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice) {

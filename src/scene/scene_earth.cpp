@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "../dynamics/fields/spherical_harmonic_field.hpp"
 #include "../store/sealed_summary.hpp"
+#include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/error.hpp"
@@ -169,7 +171,7 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
                                        earth.order, earth.degree));
     }
   }
-  read_earth_field(root, date.epoch, settings, earth);
+  read_earth_field(system, date.epoch, settings, earth);
   system.read_if_any("sun", earth.has_sun);
   system.read_if_any("moon", earth.has_moon);
   const auto read_mu = [&](std::string_view key, double& mu, bool acts) {

@@ -10,6 +10,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
+#include "hamjet/formats/gravity_field_file.hpp"
 #include "scene_nominal_file.hpp"
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
@@ -46,6 +47,11 @@ std::vector<std::string_view> integrator_keys(IntegrationMethod method);
 /// Table `[system]`. `root` is the whole scene: a gravity field that varies with time needs its
 /// epoch.
 SystemSettings read_system(const TableReader& root);
+
+/// Refuses a file whose origin lies too far from the centre of mass.
+void require_centre_of_mass(const TableReader& system, const GravityField& field);
+/// What a scene remembers of the file of its field.
+GravityFile gravity_file_of(const TableReader& system, const GravityField& field);
 
 /// The moment at which the nominal of a scene starts, from the table `[ephemeris]` or from the
 /// orbit message that the nominal is read from; no value if there is neither.

@@ -8,6 +8,7 @@
 #include "../studies/descriptions/system_description.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
 #include "scene_earth.hpp"
+#include "scene_earth_field.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {
@@ -31,13 +32,15 @@ std::string_view zonal_key(int n) {
 std::vector<SceneKey> zonal_gravity_keys() {
   constexpr int lowest = ZonalCoefficients::lowest, highest = ZonalCoefficients::highest;
   const std::vector<std::string_view> owner = {description_of(SystemModel::zonal_gravity).name};
+  const std::vector<std::string_view> both = {description_of(SystemModel::earth).name, owner[0]};
   std::vector<SceneKey> keys = {
       {"mu_km3_s2", form::positive(), absent::other("required, or of the file"),
        "gravitational parameter", owner},
       {"radius_km", form::positive(), absent::other("required by a `J_n`, or of the file"),
        "of the `J_n`", owner},
-      {"gravity_file", form::text(), absent::other("the keys that it replaces"),
-       "model of the ICGEM (`.gfc`), relative to the scene's folder", owner},
+      {"gravity_file", form::text(),
+       absent::other("the keys that it replaces; earth: EGM96 to degree 20"),
+       "model of the ICGEM (`.gfc`), relative to the scene's folder", both},
       {"highest_zonal", form::integer(lowest, highest), absent::other("`zonals`, beside a file"),
        "to take from the file", owner},
       {"zonals", form::array(form::integer(lowest, highest)),
@@ -45,7 +48,7 @@ std::vector<SceneKey> zonal_gravity_keys() {
       {"gravity_epoch", form_of_epoch(), absent::other("that of the nominal's start"),
        "of a file's coefficients that vary with time", owner},
       {"leave_out_C10", form::boolean(), absent::value(false),
-       "of a file whose origin is not the centre of mass", owner}};
+       "of a file whose origin is not the centre of mass", both}};
   // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); a larger number
   // was meant in other units.
   for (const std::string_view key : zonal_keys) {
@@ -128,29 +131,6 @@ ZonalChoice read_zonal_choice(const TableReader& root) {
   return choice;
 }
 
-/// Refuses a file whose origin lies too far from the centre of mass.
-void require_centre_of_mass(const TableReader& system, const GravityField& field) {
-  bool is_left_out = false;
-  system.read_if_any("leave_out_C10", is_left_out);
-  if (is_left_out) return;
-  constexpr std::string_view remedy =
-      "leave_out_C10 = true, for a scene whose own origin is that "
-      "centre";
-  if (!field.origin_offset_km) {
-    system.fail("gravity_file",
-                fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
-                            "centre of mass, must be one with gravity_epoch in [system] "
-                            "or epoch in [ephemeris], or {}",
-                            remedy));
-  }
-  if (std::abs(*field.origin_offset_km) <= largest_origin_offset * field.radius_km) return;
-  system.fail("gravity_file",
-              fmt::format("the origin is not the centre of mass, got a file with C(1,0) that puts "
-                          "that centre at z = {:.4g} m, must be within {:.2g} m, or {}",
-                          1000 * *field.origin_offset_km,
-                          1000 * largest_origin_offset * field.radius_km, remedy));
-}
-
 /// Reads the gravity field from a file. The file defines all of it, so that another key beside it
 /// would contradict it.
 void read_gravity_file(const TableReader& root, SystemSettings& settings) {
@@ -172,12 +152,7 @@ void read_gravity_file(const TableReader& root, SystemSettings& settings) {
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
   settings.J = field.J;
-  settings.gravity_file = {.file = system.text("gravity_file"),
-                           .model_name = field.model_name,
-                           .tide_system = field.tide_system,
-                           .epoch = field.epoch ? format_epoch(*field.epoch) : "",
-                           .origin_offset_m = field.origin_offset_km};
-  if (auto& offset = settings.gravity_file->origin_offset_m) *offset *= 1000;
+  settings.gravity_file = gravity_file_of(system, field);
 }
 
 void read_pair(const TableReader& system, const SystemParameter& parameter,
@@ -207,6 +182,38 @@ void read_parameter(const TableReader& system, const SystemParameter& parameter,
 
 }  // namespace
 
+void require_centre_of_mass(const TableReader& system, const GravityField& field) {
+  bool is_left_out = false;
+  system.read_if_any("leave_out_C10", is_left_out);
+  if (is_left_out) return;
+  constexpr std::string_view remedy =
+      "leave_out_C10 = true, for a scene whose own origin is that "
+      "centre";
+  if (!field.origin_offset_km) {
+    system.fail("gravity_file",
+                fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
+                            "centre of mass, must be one with gravity_epoch in [system] "
+                            "or epoch in [ephemeris], or {}",
+                            remedy));
+  }
+  if (std::abs(*field.origin_offset_km) <= largest_origin_offset * field.radius_km) return;
+  system.fail("gravity_file",
+              fmt::format("the origin is not the centre of mass, got a file with C(1,0) that puts "
+                          "that centre at z = {:.4g} m, must be within {:.2g} m, or {}",
+                          1000 * *field.origin_offset_km,
+                          1000 * largest_origin_offset * field.radius_km, remedy));
+}
+
+GravityFile gravity_file_of(const TableReader& system, const GravityField& field) {
+  GravityFile result = {.file = system.text_if_any("gravity_file").value_or("built in"),
+                        .model_name = field.model_name,
+                        .tide_system = field.tide_system,
+                        .epoch = field.epoch ? format_epoch(*field.epoch) : "",
+                        .origin_offset_m = field.origin_offset_km};
+  if (auto& offset = result.origin_offset_m) *offset *= 1000;
+  return result;
+}
+
 const TableDescription& system_table() {
   static const TableDescription table = [] {
     std::vector<std::string_view> models;
@@ -218,7 +225,7 @@ const TableDescription& system_table() {
         result.keys = joined<SceneKey>({result.keys, zonal_gravity_keys()});
       }
       if (system.model == SystemModel::earth) {
-        result.keys = joined<SceneKey>({result.keys, earth_keys()});
+        result.keys = joined<SceneKey>({result.keys, earth_keys(), earth_field_keys()});
       }
       for (const SystemParameter& parameter : system.parameters) {
         result.keys.push_back(key_of(parameter, system.name));

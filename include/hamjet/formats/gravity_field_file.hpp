@@ -3,13 +3,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 #include "hamjet/astronomy/epoch.hpp"
+#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
+
+namespace hamjet {
+class SphericalHarmonicCoefficients;
+}  // namespace hamjet
 
 namespace hamjet::io {
 
@@ -42,11 +47,32 @@ struct ZonalChoice {
   std::function<std::optional<Epoch>()> epoch = {};
 };
 
+/// The harmonics to take from a file: all to a degree and order.
+struct HarmonicChoice {
+  int degree = 0;
+  int order = 0;
+  /// As ZonalChoice::epoch.
+  std::function<std::optional<Epoch>()> epoch = {};
+};
+
+/// A gravity field with its tesseral coefficients.
+struct HarmonicField {
+  /// The header's content, C(1,0) and the zonal coefficients to ZonalCoefficients::highest.
+  GravityField zonal;
+  /// Fully normalised, without degree 1.
+  std::shared_ptr<SphericalHarmonicCoefficients> coefficients;
+};
+
+/// parse_gravity_field for all coefficients to a degree and order. It also throws for those of
+/// degree 1 with order 1, which must be 0: the origin is then not on the axis.
+HarmonicField parse_harmonic_field(const std::string& name, std::string_view text,
+                                   const HarmonicChoice& choice);
+
 /// Reads the text of a gravity field file (ICGEM, formats 1.0 and 2.0); `name` is the file's, for
 /// messages. Coefficients with the norm `fully_normalized`, which is the default, are multiplied by
 /// sqrt(2n + 1) in extended precision, and every number is rounded once. Exponents may be Fortran's
 /// (D). Coefficients that vary with time (gfct, trnd, dot, asin, acos) are taken at the epoch of
-/// the choice. Tesseral coefficients are skipped, because the field of a scene has none. Throws
+/// the choice. Tesseral coefficients are skipped; parse_harmonic_field reads them. Throws
 /// Error(input_output), one line `name:line: ...`, for
 ///  - a header without end_of_head, a gravity constant, a radius or max_degree, a keyword that is
 ///    there twice, a product_type other than gravity_field, another norm or format;

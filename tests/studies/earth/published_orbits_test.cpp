@@ -42,7 +42,7 @@ Vector3d flown_km(const Scene& scene, double seconds) {
 
 /// The same along the axes of EME2000, which rest in those of GCRF.
 Vector3d in_eme2000(const Scene& scene, const Vector3d& place) {
-  const Instant epoch{io::parse_epoch(scene.system.earth.value().epoch_tt).value()};
+  const Instant epoch{parse_epoch(scene.system.earth.value().epoch_tt).value()};
   return axes_change(EarthAxes::gcrf, EarthAxes::eme2000, epoch).rotation * place;
 }
 
