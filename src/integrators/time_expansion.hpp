@@ -216,7 +216,7 @@ class TimeExpansion {
 
   /// The coefficient of t^k of a function of the time, which is asked once for all of them.
   T time_value(const Operation& o, int k) {
-    using Lanes = ObjectLanes<T, Real>;
+    using Lanes = TimeLanes<T, Real>;
     using Number = typename Lanes::Number;
     constexpr std::size_t lanes = Lanes::count();
     std::vector<T>& values = time_values_[o.time_function.get()];
