@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 #include "hamjet/astronomy/epoch.hpp"
+#include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 
 namespace hamjet::io {
 
