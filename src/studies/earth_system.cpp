@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "../dynamics/fields/point_mass_field.hpp"
 #include "../dynamics/fields/spherical_harmonic_field.hpp"
 #include "hamjet/astronomy/body_position.hpp"
 #include "hamjet/astronomy/earth_rotation.hpp"
@@ -41,9 +42,7 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   const auto add = [&](bool acts, PerturbingBody body, double mu_km3_s2) {
     if (!acts) return;
     const double mu = mu_km3_s2 / settings.mu_km3_s2;
-    gravity.others.push_back({mu,
-                              std::make_shared<const SphericalHarmonicField>(
-                                  mu, 1.0, SphericalHarmonicCoefficients(0, 0)),
+    gravity.others.push_back({mu, std::make_shared<const PointMassField>(mu),
                               std::make_shared<const BodyPosition>(
                                   body, epoch, time_s, convert<double>(length_km), first, last)});
   };

@@ -21,7 +21,7 @@ namespace hamjet::io {
 /// Largest message that is read, in bytes: some 400 000 states.
 inline constexpr std::size_t largest_orbit_message_bytes = std::size_t{64} << 20;
 
-/// A state at one moment, along axes that do not rotate.
+/// A state at one moment.
 struct OrbitState {
   Epoch epoch;
   std::array<double, 3> position_km = {};
@@ -109,19 +109,25 @@ struct OrbitParameterMessage {
   std::vector<std::string> doubts = {};
 };
 
+/// The frames of states that are read: those whose axes do not rotate alone, or the Earth's own
+/// axes too (ITRF and its realisations), with velocities relative to them.
+enum class AcceptedFrames { inertial, terrestrial_too };
+
 /// Reads an OEM. `name` is the file's, printable, for messages. Accelerations are checked and left
 /// out. Throws Error(input_output), with one line `name:line: keyword: what is wrong, got, must
 /// be`, for a text that is not such a message. Among the causes are other versions, a missing or
 /// doubled keyword, a keyword that the standard does not have, blocks that do not end, epochs out
-/// of order or outside of the span, a number that is not finite, a frame that is unknown or rotates
-/// with its body, and a time system whose second is not the second of the model.
-OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text);
+/// of order or outside of the span, a number that is not finite, a frame that is unknown or not
+/// accepted, and a time system whose second is not the second of the model.
+OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text,
+                               AcceptedFrames frames = AcceptedFrames::inertial);
 
 /// Reads an OPM; otherwise as read_oem. Units, where they are written, must be those of the
 /// standard. Faults of numbers that are not used (elements, spacecraft parameters) are listed in
 /// `doubts`. META_START and META_STOP, which some programs write as in an OEM, are skipped. It also
 /// throws for a manoeuvre, because the state does not contain its effect.
-OrbitParameterMessage read_opm(const std::string& name, std::string_view text);
+OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
+                               AcceptedFrames frames = AcceptedFrames::inertial);
 
 /// Writes an OEM as text. Numbers have 16 digits, as many as the standard allows (7.5.6, 7.5.7).
 /// They differ from the given numbers by at most 7e-16 of each, and a message that is read and
@@ -138,8 +144,11 @@ bool is_inertial_frame(std::string_view reference_frame);
 /// TEME, and any other name itself.
 std::string_view name_of_axes(std::string_view reference_frame);
 
-/// The reason why a frame that is not inertial is refused, and which frames are accepted, for
-/// messages.
-std::string frame_problem(std::string_view reference_frame);
+/// Whether states in a reference frame are read.
+bool is_accepted_frame(std::string_view reference_frame, AcceptedFrames frames);
+
+/// The reason why a frame is refused, and which frames are accepted, for messages.
+std::string frame_problem(std::string_view reference_frame,
+                          AcceptedFrames frames = AcceptedFrames::inertial);
 
 }  // namespace hamjet::io

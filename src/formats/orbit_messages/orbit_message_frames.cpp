@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "../../text/scene_message.hpp"
+#include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
@@ -32,13 +33,21 @@ std::string_view name_of_axes(std::string_view reference_frame) {
   return reference_frame == "TEME" ? "TEMEOFDATE" : reference_frame;
 }
 
-std::string frame_problem(std::string_view reference_frame) {
+bool is_accepted_frame(std::string_view reference_frame, AcceptedFrames frames) {
+  return is_inertial_frame(reference_frame) || (frames == AcceptedFrames::terrestrial_too &&
+                                                axes_named(reference_frame) == EarthAxes::itrf);
+}
+
+std::string frame_problem(std::string_view reference_frame, AcceptedFrames frames) {
   const bool is_rotating = std::any_of(
       rotating_beginnings.begin(), rotating_beginnings.end(),
       [&](std::string_view beginning) { return reference_frame.starts_with(beginning); });
-  return fmt::format("{}, got {}, must be one whose axes keep their direction: {}",
+  return fmt::format("{}, got {}, must be one whose axes keep their direction: {}{}",
                      is_rotating ? "a frame that rotates" : "unknown frame",
-                     in_quotes(reference_frame), listed(inertial_frames));
+                     in_quotes(reference_frame), listed(inertial_frames),
+                     frames == AcceptedFrames::terrestrial_too
+                         ? "; or the Earth's own: ITRF with or without a year"
+                         : "");
 }
 
 }  // namespace hamjet::io

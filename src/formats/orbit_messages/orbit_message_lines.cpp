@@ -215,15 +215,15 @@ std::string MessageBlock::capitals(std::string_view keyword) const {
   return io::capitals(text(keyword));
 }
 
-OrbitMetadata MessageBlock::metadata() const {
+OrbitMetadata MessageBlock::metadata(AcceptedFrames frames) const {
   OrbitMetadata result;
   result.object_name = text("OBJECT_NAME");
   result.object_id = text("OBJECT_ID");
   result.center_name = text("CENTER_NAME");
   result.center_name_line = line_of("CENTER_NAME");
   result.reference_frame = capitals("REF_FRAME");
-  if (!is_inertial_frame(result.reference_frame)) {
-    fail("REF_FRAME", frame_problem(result.reference_frame));
+  if (!is_accepted_frame(result.reference_frame, frames)) {
+    fail("REF_FRAME", frame_problem(result.reference_frame, frames));
   }
   std::string name = text("TIME_SYSTEM");
   const auto& names = time_system_names();

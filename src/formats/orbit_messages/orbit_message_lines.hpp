@@ -109,7 +109,7 @@ class MessageBlock {
                                       std::vector<std::string>& doubts) const;
 
   /// The metadata from OBJECT_NAME, OBJECT_ID, CENTER_NAME, REF_FRAME and TIME_SYSTEM.
-  OrbitMetadata metadata() const;
+  OrbitMetadata metadata(AcceptedFrames frames) const;
 
   [[noreturn]] void fail(std::string_view keyword, const std::string& problem) const;
 

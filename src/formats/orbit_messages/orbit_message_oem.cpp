@@ -28,7 +28,8 @@ void split_at_blanks(std::string_view text, std::vector<std::string_view>& field
 
 class OemReader {
  public:
-  OemReader(const std::string& name, std::string_view text) : lines_(name, text, "oem") {}
+  OemReader(const std::string& name, std::string_view text, AcceptedFrames frames)
+      : lines_(name, text, "oem"), frames_(frames) {}
 
   OrbitEphemerisMessage read() {
     OrbitEphemerisMessage message;
@@ -91,7 +92,7 @@ class OemReader {
       block.add(line_, metadata_keywords);
     }
     block.end_at(line_.number);
-    segment.metadata = block.metadata();
+    segment.metadata = block.metadata(frames_);
     start_ = block.epoch("START_TIME");
     stop_ = block.epoch("STOP_TIME");
     if (stop_ < start_) {
@@ -239,6 +240,7 @@ class OemReader {
       "missing, got the end of the file, must begin a block of metadata";
 
   MessageLines lines_;
+  AcceptedFrames frames_;
   MessageLine line_;
   bool has_line_ = false;
   Epoch start_;  ///< start of the block that is being read
@@ -248,8 +250,9 @@ class OemReader {
 
 }  // namespace
 
-OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text) {
-  return OemReader(name, text).read();
+OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text,
+                               AcceptedFrames frames) {
+  return OemReader(name, text, frames).read();
 }
 
 }  // namespace hamjet::io

@@ -76,7 +76,8 @@ std::optional<OrbitElements> elements_of(const MessageBlock& block,
 
 }  // namespace
 
-OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
+OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
+                               AcceptedFrames frames) {
   const std::vector<std::string_view> keywords = all_keywords();
   MessageLines lines(name, text, "opm");
   OrbitParameterMessage message;
@@ -101,7 +102,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text) {
   block.end_at(lines.number());
   message.creation_date = block.epoch("CREATION_DATE");
   message.originator = block.text("ORIGINATOR");
-  message.metadata = block.metadata();
+  message.metadata = block.metadata(frames);
   message.state.epoch = block.epoch("EPOCH");
   const std::vector<Quantity>& state_vector = state_quantities();
   for (std::size_t i = 0; i < 3; ++i) {
