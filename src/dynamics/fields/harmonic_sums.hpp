@@ -12,11 +12,12 @@
 #include "spherical_harmonic_coefficients.hpp"
 
 // A field of spherical harmonics as local polynomial. Lengths are in units of the distance r of the
-// point, so that the point is a unit vector e = (x, y, z) and R the number kappa = R/r. The field is
-// Kelvin's transform of one that grows outwards, U(p) = V(p / |p|^2) / |p|, which leaves e where it
-// is. With zeta = x + i y, w = zeta conj(zeta), and A_nm = d^m P_n / dz^m,
+// point, so that the point is a unit vector e = (x, y, z) and R the number kappa = R/r. The field
+// is Kelvin's transform of one that grows outwards, U(p) = V(p / |p|^2) / |p|, which leaves e where
+// it is. With zeta = x + i y, w = zeta conj(zeta), and A_nm = d^m P_n / dz^m,
 //
-//   V = Re sum over n, m of (C_nm - i S_nm) kappa^n zeta^m G_nm(z, w),    G_nm = A_nm(z) at |p| = 1.
+//   V = Re sum over n, m of (C_nm - i S_nm) kappa^n zeta^m G_nm(z, w),    G_nm = A_nm(z) at |p|
+//   = 1.
 //
 // Of each order m, the sums over n are functions h_m(z, w), whose derivatives are sums of the same
 // harmonics of another degree and order, because of
@@ -24,29 +25,30 @@
 //   dG_nm/dw = -G_(n-1,m+1) / 2,        dG_nm/dz = (n + m) G_(n-1,m) .
 //
 // Few are needed: by Laplace's equation all derivatives follow from those with at most one dz. The
-// sum over m is evaluated together with its derivatives by zeta, by Horner's rule. Its polynomial in
-// the deviations (eta, omega) of (zeta, w) becomes one of the coordinates' deviations by
-// omega = conj(zeta) eta + zeta conj(eta) + eta conj(eta).
+// sum over m is evaluated together with its derivatives by zeta, by Horner's rule. Its polynomial
+// in the deviations (eta, omega) of (zeta, w) becomes one of the coordinates' deviations by omega =
+// conj(zeta) eta + zeta conj(eta) + eta conj(eta).
 //
 // The same can be done with U itself, without V, but then the powers of zeta and those of 1/r, both
 // large of high order, cancel each other: at the equator the terms are 3^k times as large as the
 // derivative of order k that they add up to.
 //
-// On the axis, zeta = 0 is an ordinary point. A_nm / (2m - 1)!! is a Gegenbauer polynomial and at most
-// binomial(n + m, 2m): of degree 120, at most 1e50.
+// On the axis, zeta = 0 is an ordinary point. A_nm / (2m - 1)!! is a Gegenbauer polynomial and at
+// most binomial(n + m, 2m): of degree 120, at most 1e50.
 
 namespace hamjet {
 
 template <class Real>
 class HarmonicSums {
  public:
-  /// Makes the tables from normalised coefficients.
+  /// Makes the tables from normalised coefficients; C_00 stands apart.
   explicit HarmonicSums(const SphericalHarmonicCoefficients& field)
-      : degree_(field.degree()), order_(field.order()) {
+      : degree_(field.degree()), order_(field.order()), central_(field.C(0, 0)) {
     rows_.reserve(static_cast<std::size_t>(order_) + 1);
     for (int m = 0; m <= order_; ++m) {
       // A row of the order m holds for l = n - m, side by side, C, -S, and those of l + 1 times
-      // n + m = 2m + l + 1; behind them zeros, so that rows of several orders can be read to one length.
+      // n + m = 2m + l + 1; behind them zeros, so that rows of several orders can be read to one
+      // length.
       std::vector<Real> row(4 * static_cast<std::size_t>(degree_ - m + 1 + padding));
       // N (2m - 1)!! for n = m, with the norm N^2 = (2 - delta) (2n + 1) (n - m)! / (n + m)!.
       Real scale_squared = m == 0 ? Real(1) : Real(2);
@@ -56,6 +58,7 @@ class HarmonicSums {
         if (n > m) scale_squared *= Real(n - m) / Real(n + m);
         using std::sqrt;
         const Real scale = sqrt(Real(scale_squared * Real(2 * n + 1)));
+        if (n == 0) continue;
         row[4 * l] = scale * Real(field.C(n, m));
         row[4 * l + 1] = -scale * Real(field.S(n, m));
         if (l > 0) {
@@ -74,7 +77,8 @@ class HarmonicSums {
     Expansion<Lanes>(*this, point, kappa, degree).run(out);
   }
 
-  /// Multiply-adds of an expansion at one point: of the recursion, the sums over n, and Horner's rule.
+  /// Multiply-adds of an expansion at one point: of the recursion, the sums over n, and Horner's
+  /// rule.
   static double multiply_adds(int field_degree, int order, int degree) {
     double count = 0;
     for (int m = 0; m <= std::min(order + degree, field_degree); ++m) {
@@ -132,6 +136,8 @@ class HarmonicSums {
         substitute(a);
         to_monomials(a, scratch_.growing.slope[static_cast<std::size_t>(a)]);
       }
+      // The large central term comes last, so that it is rounded with few sums.
+      scratch_.growing.slope[0][0] += P(sums_.central_);
       kelvin_transform(point_, K_, scratch_.growing, scratch_.decaying);
       for (int a = 0; a <= std::min(K_, 1); ++a) {
         const std::vector<P>& from = scratch_.decaying.slope[static_cast<std::size_t>(a)];
@@ -218,8 +224,8 @@ class HarmonicSums {
       return P(Real(-(2 * m - 2 * c + 1)) * scratch_.inverses[c] / Real(2)) * kappa_;
     }
 
-    /// Takes the orders m - c for `Count` values of c from c on. Of the last one the derivative by z
-    /// is not needed if `has_last`.
+    /// Takes the orders m - c for `Count` values of c from c on. Of the last one the derivative by
+    /// z is not needed if `has_last`.
     template <int Count>
     void take_orders(int m, int c, bool has_last, const P* column, P& scale) {
       if (has_last) {
@@ -333,6 +339,7 @@ class HarmonicSums {
 
   int degree_;
   int order_;
+  Real central_;
   std::vector<std::vector<Real>> rows_;
 };
 

@@ -53,6 +53,15 @@ void expand_inverse_distance(const std::array<P, 3>& u, int degree, P* out) {
   }
 }
 
+/// Multiplies the coefficients of degree n by scale ratio^n.
+template <class P>
+void scale_by_degree(P scale, const P& ratio, int degree, P* c) {
+  for (int n = 0; n <= degree; ++n) {
+    for (std::size_t k = local_first(n); k < local_first(n + 1); ++k) c[k] *= scale;
+    scale *= ratio;
+  }
+}
+
 /// Sets the coefficients with dz^2 and higher powers of a harmonic polynomial from those without:
 /// by Laplace's equation,
 ///
@@ -73,8 +82,9 @@ void complete_harmonic(int degree, P* c) {
   }
 }
 
-/// The numbers w(c, j) for one degree n: with b = n - c >= c, the real (j even) or imaginary (j odd)
-/// part of the coefficient of x^(n-j) y^j in (x + i y)^b (x - i y)^c = (x^2 + y^2)^c (x + i y)^(b-c):
+/// The numbers w(c, j) for one degree n: with b = n - c >= c, the real (j even) or imaginary (j
+/// odd) part of the coefficient of x^(n-j) y^j in (x + i y)^b (x - i y)^c = (x^2 + y^2)^c (x + i
+/// y)^(b-c):
 ///
 ///   w(c, j) = sum over s of binomial(c, s) binomial(b - c, j - 2 s) (-1)^floor((j - 2 s) / 2) .
 ///
@@ -90,7 +100,8 @@ const std::vector<Real>& plane_weights(int n) {
   std::vector<std::vector<Extended>> binomial(place + 1);
   for (std::size_t a = 0; a <= place; ++a) {
     binomial[a].assign(a + 1, Extended(1));
-    for (std::size_t b = 1; b < a; ++b) binomial[a][b] = binomial[a - 1][b - 1] + binomial[a - 1][b];
+    for (std::size_t b = 1; b < a; ++b)
+      binomial[a][b] = binomial[a - 1][b - 1] + binomial[a - 1][b];
   }
   auto made = std::make_unique<std::vector<Real>>();
   for (std::size_t c = 0; c <= place / 2; ++c) {

@@ -16,8 +16,8 @@ constexpr std::size_t plane_index(int degree, int j) {
   return static_cast<std::size_t>(degree * (degree + 1) / 2 + j);
 }
 
-/// Coefficients of a polynomial to a degree: those of dx^i dy^j in slope[0] and those of dx^i dy^j dz
-/// in slope[1].
+/// Coefficients of a polynomial to a degree: those of dx^i dy^j in slope[0] and those of dx^i dy^j
+/// dz in slope[1].
 template <class P>
 struct PlanePolynomial {
   std::array<std::vector<P>, 2> slope;
@@ -29,8 +29,8 @@ struct PlanePolynomial {
   }
 };
 
-/// Sets 1/rho, rho = |e + d|, about a unit vector e, by the recursion of expand_inverse_distance, and
-/// 1/rho^2 - 1 by that of the geometric series (1 + 2 e.d + d.d) / rho^2 = 1.
+/// Sets 1/rho, rho = |e + d|, about a unit vector e, by the recursion of expand_inverse_distance,
+/// and 1/rho^2 - 1 by that of the geometric series (1 + 2 e.d + d.d) / rho^2 = 1.
 template <class P>
 void expand_distance_powers(const std::array<P, 3>& e, int degree, PlanePolynomial<P>& inverse,
                             PlanePolynomial<P>& square) {
@@ -117,8 +117,8 @@ void apply_radial(const std::array<P, 3>& e, const PlanePolynomial<P>& q, int lo
   }
 }
 
-/// Kelvin's transform: sets U(e + d) = V((e + d) / rho^2) / rho about a unit vector e, for a harmonic
-/// V. With V scaled by 1/rho^2 = 1 + s about the origin,
+/// Kelvin's transform: sets U(e + d) = V((e + d) / rho^2) / rho about a unit vector e, for a
+/// harmonic V. With V scaled by 1/rho^2 = 1 + s about the origin,
 ///
 ///   U = 1/rho sum over j of s^j Q_j,    Q_0 = V(e + d),   Q_j = (E - j + 1) Q_(j-1) / j .
 template <class P>
@@ -127,7 +127,8 @@ void kelvin_transform(const std::array<P, 3>& e, int degree, const PlanePolynomi
   static thread_local std::vector<PlanePolynomial<P>> Q;
   static thread_local std::array<PlanePolynomial<P>, 3> work;
   auto& [inverse, s, next] = work;
-  if (Q.size() < static_cast<std::size_t>(degree) + 1) Q.resize(static_cast<std::size_t>(degree) + 1);
+  if (Q.size() < static_cast<std::size_t>(degree) + 1)
+    Q.resize(static_cast<std::size_t>(degree) + 1);
   expand_distance_powers(e, degree, inverse, s);
   const auto factor = [&](int j) -> PlanePolynomial<P>& { return Q[static_cast<std::size_t>(j)]; };
   factor(0) = V;

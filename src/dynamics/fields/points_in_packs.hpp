@@ -13,8 +13,8 @@
 namespace hamjet {
 
 /// Takes points side by side in packs: eight, or one where there is no more or the numbers have no
-/// vectors. `inputs` are arrays of `count` numbers each. `expand` gets a pack of each input and sets
-/// `size` packs of outputs, whose lanes go to out[k * count + lane].
+/// vectors. `inputs` are arrays of `count` numbers each. `expand` gets a pack of each input and
+/// sets `size` packs of outputs, whose lanes go to out[k * count + lane].
 template <class Real, std::size_t Inputs, class Expand>
 void for_points_in_packs(std::size_t count, const std::array<const Real*, Inputs>& inputs,
                          std::size_t size, Real* out, const Expand& expand) {

@@ -5,8 +5,8 @@
 
 namespace hamjet {
 
-/// The fully normalised coefficients C_nm and S_nm of spherical harmonics, 0 <= m <= n <= degree and
-/// m <= order, C_00 = 1 and all others 0 at first.
+/// The fully normalised coefficients C_nm and S_nm of spherical harmonics, 0 <= m <= n <= degree
+/// and m <= order, C_00 = 1 and all others 0 at first.
 class SphericalHarmonicCoefficients {
  public:
   /// Needs 0 <= order <= degree.

@@ -9,6 +9,7 @@
 
 #include "hamjet/error.hpp"
 #include "harmonic_sums.hpp"
+#include "local_polynomial.hpp"
 #include "points_in_packs.hpp"
 
 namespace hamjet {
@@ -69,16 +70,13 @@ void SphericalHarmonicField::expand_in(std::size_t count, const Real* x, const R
                                        const Real* z, int degree, Real* out) const {
   const HarmonicSums<Real>& sums = tables_->of<Real>(coefficients_);
   for_points_in_packs<Real, 3>(
-      count, {x, y, z}, local_field_size(degree), out, [&]<class P>(const std::array<P, 3>& r, P* c) {
+      count, {x, y, z}, local_field_size(degree), out,
+      [&]<class P>(const std::array<P, 3>& r, P* c) {
         using hamjet::sqrt;
         const P inverse = P(Real(1)) / sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
         const std::array<P, 3> unit = {r[0] * inverse, r[1] * inverse, r[2] * inverse};
         sums.expand(unit, P(Real(radius_)) * inverse, degree, c);
-        P scale = P(Real(mu_)) * inverse;
-        for (int n = 0; n <= degree; ++n) {
-          for (std::size_t k = local_first(n); k < local_first(n + 1); ++k) c[k] *= scale;
-          scale *= inverse;
-        }
+        scale_by_degree(P(Real(mu_)) * inverse, inverse, degree, c);
       });
 }
 
@@ -90,9 +88,8 @@ void SphericalHarmonicField::expand(std::size_t count, const Extended* x, const 
                                     const Extended* z, int degree, Extended* out) const {
   expand_in(count, x, y, z, degree, out);
 }
-void SphericalHarmonicField::expand(std::size_t count, const DoubleDouble* x,
-                                    const DoubleDouble* y, const DoubleDouble* z, int degree,
-                                    DoubleDouble* out) const {
+void SphericalHarmonicField::expand(std::size_t count, const DoubleDouble* x, const DoubleDouble* y,
+                                    const DoubleDouble* z, int degree, DoubleDouble* out) const {
   expand_in(count, x, y, z, degree, out);
 }
 

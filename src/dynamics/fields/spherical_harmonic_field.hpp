@@ -12,8 +12,8 @@ namespace hamjet {
 ///
 ///   U = mu/r sum over n, m of (R/r)^n P_nm(sin phi) [C_nm cos(m lambda) + S_nm sin(m lambda)],
 ///
-/// P_nm and the coefficients fully normalised, C_00 the factor of the central term. All units are the
-/// caller's.
+/// P_nm and the coefficients fully normalised, C_00 the factor of the central term. All units are
+/// the caller's.
 class SphericalHarmonicField final : public LocalField {
  public:
   /// Beyond this degree the harmonics could overflow near the poles.
