@@ -71,7 +71,9 @@ GravityCoefficient::Kind GravityCoefficient::kind_of(std::string_view key) {
   return key == "acos" ? Kind::cosine : Kind::trend;
 }
 
-std::string GravityCoefficient::name() const { return fmt::format("C({},0)", degree_); }
+std::string GravityCoefficient::name() const {
+  return fmt::format("{}({},{})", letter_, degree_, order_);
+}
 
 void GravityCoefficient::add(const NamedFile& file, int line,
                              const std::vector<std::string_view>& words, GravityFormat format) {
@@ -92,10 +94,10 @@ void GravityCoefficient::add(const NamedFile& file, int line,
                                    has_interval ? ", t1" : "", has_period ? ", period" : "",
                                    7 + behind, 9 + behind));
   }
-  const auto amplitude = gravity_number(words[3]);
+  const std::string_view word = words[letter_ == 'C' ? 3 : 4];
+  const auto amplitude = gravity_number(word);
   if (!amplitude) {
-    file.fail_at(line,
-                 fmt::format("{}: must be a finite number, got {}", name(), in_quotes(words[3])));
+    file.fail_at(line, fmt::format("{}: must be a finite number, got {}", name(), in_quotes(word)));
   }
   record.amplitude = *amplitude;
   const auto date = [&](std::size_t column, std::string_view which) {

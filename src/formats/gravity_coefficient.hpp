@@ -8,7 +8,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/formats/epoch.hpp"
 
-// A zonal coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes, C.
+// A coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes, C.
 // Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of a
 // coefficient that varies has an interval of validity.
 
@@ -32,10 +32,12 @@ std::optional<Extended> gravity_number(std::string_view word);
 /// for coefficients that vary with time.
 const std::vector<std::string_view>& gravity_record_keys();
 
-/// The coefficient C(n,0) as its file gives it, normalised or not, collected record by record.
+/// The coefficient C(n,m) or S(n,m) as its file gives it, normalised or not, collected record by
+/// record.
 class GravityCoefficient {
  public:
-  explicit GravityCoefficient(int degree) : degree_(degree) {}
+  GravityCoefficient(char letter, int degree, int order)
+      : letter_(letter), degree_(degree), order_(order) {}
 
   /// Takes a record: a line of the file as words, of which at least five are there. Throws
   /// Error(input_output) for another number of columns than the key has in this format, for a word
@@ -44,6 +46,8 @@ class GravityCoefficient {
   void add(const NamedFile& file, int line, const std::vector<std::string_view>& words,
            GravityFormat format);
 
+  /// "C(2,0)".
+  std::string name() const;
   bool varies() const;
   /// The line of the record that gives the value, or the first one.
   int line() const;
@@ -78,13 +82,14 @@ class GravityCoefficient {
   };
 
   static Kind kind_of(std::string_view key);
-  std::string name() const;
   const Record& value_at(const NamedFile& file, const std::vector<const Record*>& in_force,
                          const Epoch& epoch) const;
   Extended contribution(const NamedFile& file, const Record& record, const Record& value,
                         const Epoch& epoch) const;
 
+  char letter_;
   int degree_;
+  int order_;
   std::vector<Record> records_;
 };
 
