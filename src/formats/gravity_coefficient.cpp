@@ -72,7 +72,7 @@ GravityCoefficient::Kind GravityCoefficient::kind_of(std::string_view key) {
 }
 
 std::string GravityCoefficient::name() const {
-  return fmt::format("{}({},{})", which_ == Harmonic::cosine ? "C" : "S", degree_, order_);
+  return fmt::format("{}({},{})", letter_, degree_, order_);
 }
 
 void GravityCoefficient::add(const NamedFile& file, int line,
@@ -94,11 +94,10 @@ void GravityCoefficient::add(const NamedFile& file, int line,
                                    has_interval ? ", t1" : "", has_period ? ", period" : "",
                                    7 + behind, 9 + behind));
   }
-  const std::string_view number = words[which_ == Harmonic::cosine ? 3 : 4];
-  const auto amplitude = gravity_number(number);
+  const std::string_view word = words[letter_ == 'C' ? 3 : 4];
+  const auto amplitude = gravity_number(word);
   if (!amplitude) {
-    file.fail_at(line,
-                 fmt::format("{}: must be a finite number, got {}", name(), in_quotes(number)));
+    file.fail_at(line, fmt::format("{}: must be a finite number, got {}", name(), in_quotes(word)));
   }
   record.amplitude = *amplitude;
   const auto date = [&](std::size_t column, std::string_view which) {

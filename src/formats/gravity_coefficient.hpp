@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/astronomy/epoch.hpp"
+#include "hamjet/detail/formats/epoch.hpp"
 
 // A coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes, C.
 // Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of a
@@ -32,15 +32,12 @@ std::optional<Extended> gravity_number(std::string_view word);
 /// for coefficients that vary with time.
 const std::vector<std::string_view>& gravity_record_keys();
 
-/// Which of the two coefficients of a degree and order.
-enum class Harmonic { cosine, sine };
-
 /// The coefficient C(n,m) or S(n,m) as its file gives it, normalised or not, collected record by
 /// record.
 class GravityCoefficient {
  public:
-  explicit GravityCoefficient(int degree, int order = 0, Harmonic which = Harmonic::cosine)
-      : degree_(degree), order_(order), which_(which) {}
+  GravityCoefficient(char letter, int degree, int order)
+      : letter_(letter), degree_(degree), order_(order) {}
 
   /// Takes a record: a line of the file as words, of which at least five are there. Throws
   /// Error(input_output) for another number of columns than the key has in this format, for a word
@@ -49,6 +46,7 @@ class GravityCoefficient {
   void add(const NamedFile& file, int line, const std::vector<std::string_view>& words,
            GravityFormat format);
 
+  /// "C(2,0)".
   std::string name() const;
   bool varies() const;
   /// The line of the record that gives the value, or the first one.
@@ -89,9 +87,9 @@ class GravityCoefficient {
   Extended contribution(const NamedFile& file, const Record& record, const Record& value,
                         const Epoch& epoch) const;
 
+  char letter_;
   int degree_;
   int order_;
-  Harmonic which_;
   std::vector<Record> records_;
 };
 

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <optional>
-#include <tuple>
+#include <set>
+#include <utility>
 
-#include "../dynamics/fields/spherical_harmonic_coefficients.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/whole_number.hpp"
@@ -40,62 +39,87 @@ std::optional<int> natural_in(std::string_view word) {
   return number && *number >= 0 ? number : std::nullopt;
 }
 
+/// Degree and order.
+using Harmonic = std::pair<int, int>;
+
+/// Reads header and records, and keeps the coefficients that are wanted and those of degree 1.
 class Reader {
  public:
-  Reader(const std::string& name, std::string_view text, const ZonalChoice& choice)
-      : file_{name}, text_(text), epoch_(choice.epoch) {
-    for (int n = ZonalCoefficients::lowest; n <= choice.highest; ++n) wanted_.push_back(n);
-    if (!choice.degrees.empty()) wanted_ = choice.degrees;
-  }
+  using GetEpoch = std::function<std::optional<Epoch>()>;
 
-  Reader(const std::string& name, std::string_view text, const HarmonicChoice& choice)
-      : file_{name},
-        text_(text),
-        epoch_(choice.epoch),
-        degree_(choice.degree),
-        order_(choice.order) {
-    for (int n = ZonalCoefficients::lowest; n <= std::min(degree_, ZonalCoefficients::highest);
-         ++n) {
-      wanted_.push_back(n);
-    }
-  }
+  Reader(const std::string& name, std::string_view text, GetEpoch epoch)
+      : file_{name}, text_(text), get_epoch_(std::move(epoch)) {}
 
-  HarmonicField read_harmonics() {
-    HarmonicField result = {read(), {}};
-    result.coefficients = std::make_shared<SphericalHarmonicCoefficients>(degree_, order_);
-    for (int n = 2; n <= degree_; ++n) {
-      for (int m = 0; m <= std::min(n, order_); ++m) {
-        const Extended norm = norm_of(n, m);
-        const auto value = [&](Harmonic which) {
-          const auto found = harmonics_.find({n, m, which});
-          if (found == harmonics_.end()) {
-            fail(fmt::format("the file ends without {}, which is asked for; its max_degree is {}",
-                             GravityCoefficient(n, m, which).name(), field_.max_degree));
-          }
-          return static_cast<double>(Extended(found->second.at(file_, field_.epoch) / norm));
-        };
-        result.coefficients->C(n, m) = value(Harmonic::cosine);
-        if (m > 0) result.coefficients->S(n, m) = value(Harmonic::sine);
-      }
-    }
-    return result;
-  }
-
-  GravityField read() {
+  void read(const std::vector<Harmonic>& wanted) {
+    wanted_ = {wanted.begin(), wanted.end()};
+    for (const auto& [n, m] : wanted) highest_order_ = std::max(highest_order_, m);
     read_header();
     while (next_line()) {
       if (!words_.empty()) read_record();
     }
-    for (const int n : wanted_) {
-      if (!coefficients_.contains(n)) {
-        fail(fmt::format("the file ends without C({},0), which is asked for; its max_degree is {}",
-                         n, field_.max_degree));
+    for (const auto& [n, m] : wanted) {
+      if (!coefficients_.contains({n, m})) {
+        fail(fmt::format("the file ends without C({},{}), which is asked for; its max_degree is {}",
+                         n, m, model_.max_degree));
       }
     }
     find_epoch();
-    for (const int n : wanted_) field_.J[n] = J_of(n);
-    take_origin();
-    return field_;
+  }
+
+  const GravityModel& model() const { return model_; }
+
+  /// J_n = -C_n0, not normalised.
+  double J_of(int degree) const {
+    const GravityCoefficient& coefficient = coefficients_.at({degree, 0}).C;
+    const Extended norm = is_normalized_ ? norm_of({degree, 0}) : Extended(1);
+    const auto J = static_cast<double>(Extended(-norm * coefficient.at(file_, model_.epoch)));
+    if (!(std::abs(J) <= 1)) {
+      file_.fail_at(coefficient.line(),
+                    fmt::format("C({},0): out of range, got J{} = {:.6g}, must be from -1 to 1",
+                                degree, degree, J));
+    }
+    return J;
+  }
+
+  /// The normalised C or S, `added` to it.
+  double normalised(const Harmonic& harmonic, char letter, double added = 0) const {
+    const Pair& pair = coefficients_.at(harmonic);
+    const GravityCoefficient& coefficient = letter == 'C' ? pair.C : pair.S;
+    const Extended norm = is_normalized_ ? Extended(1) : norm_of(harmonic);
+    const auto value =
+        static_cast<double>(Extended(coefficient.at(file_, model_.epoch) / norm + Extended(added)));
+    if (!(std::abs(value) <= 1)) {
+      file_.fail_at(coefficient.line(),
+                    fmt::format("{}: out of range, got {:.6g}, must be from -1 to 1",
+                                coefficient.name(), value));
+    }
+    return value;
+  }
+
+  bool has(const Harmonic& harmonic) const { return coefficients_.contains(harmonic); }
+  /// Whether it varies with time while there is no epoch.
+  bool is_unknown(const Harmonic& harmonic) const {
+    const auto found = coefficients_.find(harmonic);
+    return found != coefficients_.end() && !model_.epoch &&
+           (found->second.C.varies() || found->second.S.varies());
+  }
+
+  /// The tide system of the file, where it or the user says it.
+  TideSystem tide_system(const std::optional<TideSystem>& said) const {
+    const auto found = header_.find("tide_system");
+    const int line = found == header_.end() ? end_of_head_ : found->second.line;
+    for (const TideSystem system : {TideSystem::tide_free, TideSystem::zero_tide}) {
+      if (model_.tide_system != tide_system_name(system)) continue;
+      if (said && *said != system) {
+        file_.fail_at(line, fmt::format("tide_system: the file is {}, must not be said to be {}",
+                                        model_.tide_system, tide_system_name(*said)));
+      }
+      return system;
+    }
+    if (said) return *said;
+    file_.fail_at(line, fmt::format("tide_system: must be tide_free or zero_tide, or it must be "
+                                    "said which of them the file is, got {}",
+                                    in_quotes(model_.tide_system)));
   }
 
  private:
@@ -141,8 +165,8 @@ class Reader {
     format_ = expect_value("format", {"icgem1.0", "icgem2.0"}) == "icgem2.0"
                   ? GravityFormat::icgem2
                   : GravityFormat::icgem1;
-    field_.mu_km3_s2 = positive({"earth_gravity_constant", "gravity_constant"}, 1000000000);
-    field_.radius_km = positive({"radius"}, 1000);
+    model_.mu_km3_s2 = positive({"earth_gravity_constant", "gravity_constant"}, 1000000000);
+    model_.radius_km = positive({"radius"}, 1000);
     const auto degree = header_.find("max_degree");
     if (degree == header_.end()) file_.fail_at(end_of_head_, "the header has no max_degree");
     line_ = degree->second.line;
@@ -151,9 +175,9 @@ class Reader {
       fail(fmt::format("max_degree: must be a natural number, got {}",
                        in_quotes(degree->second.value)));
     }
-    field_.max_degree = *max_degree;
-    field_.model_name = value_of("modelname").value_or(value_of("product_name").value_or(""));
-    field_.tide_system = value_of("tide_system").value_or("unknown");
+    model_.max_degree = *max_degree;
+    model_.model_name = value_of("modelname").value_or(value_of("product_name").value_or(""));
+    model_.tide_system = value_of("tide_system").value_or("unknown");
     line_ = end_of_head_;
   }
 
@@ -210,44 +234,24 @@ class Reader {
     }
     const auto degree = natural_in(words_[1]);
     const auto order = natural_in(words_[2]);
-    if (!degree || !order || *order > *degree || *degree > field_.max_degree) {
+    if (!degree || !order || *order > *degree || *degree > model_.max_degree) {
       fail(
           fmt::format("{}: degree and order must be natural numbers, the order at most the degree "
                       "and that at most the max_degree of {}, got {} and {}",
-                      key, field_.max_degree, in_quotes(words_[1]), in_quotes(words_[2])));
+                      key, model_.max_degree, in_quotes(words_[1]), in_quotes(words_[2])));
     }
+    const Harmonic harmonic(*degree, *order);
     if (*degree == 0) return check_constant_mass();
-    if (*degree <= degree_ && *order <= order_) take_harmonics(*degree, *order);
-    if (*order != 0) return;
-    if (*degree > 1 && std::find(wanted_.begin(), wanted_.end(), *degree) == wanted_.end()) return;
-    coefficients_.try_emplace(*degree, *degree).first->second.add(file_, line_, words_, format_);
-  }
-
-  void take_harmonics(int degree, int order) {
-    if (degree == 1) {
-      if (order == 0 ||
-          (gravity_number(words_[3]) == Extended(0) && gravity_number(words_[4]) == Extended(0))) {
-        return;
-      }
-      fail(fmt::format(
-          "C(1,1) and S(1,1): must be 0, for the origin must be on the axis, got {} and "
-          "{}",
-          in_quotes(words_[3]), in_quotes(words_[4])));
-    }
-    for (const Harmonic which : {Harmonic::cosine, Harmonic::sine}) {
-      if (which == Harmonic::sine && order == 0) continue;
-      harmonics_.try_emplace({degree, order, which}, degree, order, which)
-          .first->second.add(file_, line_, words_, format_);
-    }
-  }
-
-  /// What a coefficient of the file is a multiple of: 1, or 1/N with the norm N of full
-  /// normalisation, N^2 = (2 - delta_m0) (2n + 1) (n - m)!/(n + m)!.
-  Extended norm_of(int n, int m) const {
-    if (is_normalized_) return Extended(1);
-    Extended squared = Extended(m == 0 ? 1 : 2) * (2 * n + 1);
-    for (int k = n - m + 1; k <= n + m; ++k) squared /= k;
-    return sqrt(squared);
+    const bool is_origin = *degree == 1 && *order <= highest_order_;
+    if (!is_origin && !wanted_.contains(harmonic)) return;
+    const auto [n, m] = harmonic;
+    Pair& pair = coefficients_
+                     .try_emplace(harmonic, Pair{GravityCoefficient('C', n, m),
+                                                 GravityCoefficient('S', n, m)})
+                     .first->second;
+    pair.C.add(file_, line_, words_, format_);
+    // What stands in the place of S(n,0) multiplies sin(0).
+    if (m > 0) pair.S.add(file_, line_, words_, format_);
   }
 
   /// C(0,0) must be 1 and constant, because the mass is given by the gravity constant.
@@ -262,37 +266,24 @@ class Reader {
 
   /// Asks for the epoch, once, if one of the coefficients varies with time.
   void find_epoch() {
-    const auto varies = [](const auto& entry) { return entry.second.varies(); };
-    const bool is_needed = std::any_of(coefficients_.begin(), coefficients_.end(), varies) ||
-                           std::any_of(harmonics_.begin(), harmonics_.end(), varies);
-    if (is_needed && epoch_) field_.epoch = epoch_();
+    const bool is_needed = std::any_of(
+        coefficients_.begin(), coefficients_.end(),
+        [](const auto& entry) { return entry.second.C.varies() || entry.second.S.varies(); });
+    if (is_needed && get_epoch_) model_.epoch = get_epoch_();
   }
 
-  /// J_n = -C_n0, not normalised, from the coefficient that was read.
-  double J_of(int degree) const {
-    const GravityCoefficient& coefficient = coefficients_.at(degree);
-    const Extended norm = is_normalized_ ? Extended(sqrt(Extended(2 * degree + 1))) : Extended(1);
-    const auto J = static_cast<double>(Extended(-norm * coefficient.at(file_, field_.epoch)));
-    if (!(std::abs(J) <= 1)) {
-      file_.fail_at(coefficient.line(),
-                    fmt::format("C({},0): out of range, got J{} = {:.6g}, must be from -1 to 1",
-                                degree, degree, J));
-    }
-    return J;
+  /// By which a coefficient is multiplied to be one of Legendre functions that are not normalised.
+  static Extended norm_of(const Harmonic& harmonic) {
+    const auto [n, m] = harmonic;
+    Extended square = (m == 0 ? 1 : 2) * (2 * n + 1);
+    for (int j = n - m + 1; j <= n + m; ++j) square /= j;
+    return sqrt(square);
   }
 
-  /// A mass whose centre lies at z on the axis attracts with
-  ///   mu / |r - z e| = mu / r (1 + z sin(latitude) / r + ...) ;
-  /// the term of degree 1 is mu / r C10 R sin(latitude) / r, where C10 is not normalised.
-  void take_origin() {
-    const auto first = coefficients_.find(1);
-    if (first == coefficients_.end()) return;
-    if (first->second.varies() && !field_.epoch) {
-      field_.origin_offset_km.reset();
-      return;
-    }
-    field_.origin_offset_km = -J_of(1) * field_.radius_km;
-  }
+  struct Pair {
+    GravityCoefficient C;
+    GravityCoefficient S;
+  };
 
   struct HeaderLine {
     std::string value;
@@ -301,43 +292,107 @@ class Reader {
 
   NamedFile file_;
   std::string_view text_;
-  std::function<std::optional<Epoch>()> epoch_;
+  GetEpoch get_epoch_;
   GravityFormat format_ = GravityFormat::icgem1;
-  std::vector<int> wanted_;
+  std::set<Harmonic> wanted_;
+  int highest_order_ = 0;  ///< of those wanted
   int line_ = 0;
   int end_of_head_ = 0;  ///< its line
   std::vector<std::string_view> words_;
   std::map<std::string, HeaderLine, std::less<>> header_;
   bool is_normalized_ = true;
-  /// C(1,0) and the coefficients that are asked for.
-  std::map<int, GravityCoefficient> coefficients_;
-  int degree_ = -1;  ///< of the harmonics that are asked for; -1 if none are
-  int order_ = -1;
-  std::map<std::tuple<int, int, Harmonic>, GravityCoefficient> harmonics_;
-  GravityField field_;
+  std::map<Harmonic, Pair> coefficients_;
+  GravityModel model_;
 };
 
-}  // namespace
-
-GravityField parse_gravity_field(const std::string& name, std::string_view text,
-                                 const ZonalChoice& choice) {
-  return Reader(name, text, choice).read();
-}
-
-HarmonicField parse_harmonic_field(const std::string& name, std::string_view text,
-                                   const HarmonicChoice& choice) {
-  return Reader(name, text, choice).read_harmonics();
-}
-
-GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice) {
-  const FileContent content = read_regular_file(file, largest_gravity_field_bytes);
+std::string content_of(const std::filesystem::path& file) {
+  FileContent content = read_regular_file(file, largest_gravity_field_bytes);
   if (!content.problem.empty()) {
     throw_no_content(file, content,
                      content.is_too_large ? ErrorKind::too_large : ErrorKind::input_output,
                      fmt::format("{}: the gravity field cannot be read: {}", printable_path(file),
                                  content.problem));
   }
-  return parse_gravity_field(printable_path(file), content.text, choice);
+  return std::move(content.text);
+}
+
+}  // namespace
+
+GravityField parse_gravity_field(const std::string& name, std::string_view text,
+                                 const ZonalChoice& choice) {
+  std::vector<int> degrees = choice.degrees;
+  if (degrees.empty()) {
+    for (int n = ZonalCoefficients::lowest; n <= choice.highest; ++n) degrees.push_back(n);
+  }
+  std::vector<Harmonic> wanted;
+  for (const int n : degrees) wanted.emplace_back(n, 0);
+  Reader reader(name, text, choice.epoch);
+  reader.read(wanted);
+  GravityField field{reader.model(), {}};
+  for (const int n : degrees) field.J[n] = reader.J_of(n);
+  // A mass whose centre lies at z on the axis attracts with
+  //   mu / |r - z e| = mu / r (1 + z sin(latitude) / r + ...) ;
+  // the term of degree 1 is mu / r C10 R sin(latitude) / r, where C10 is not normalised.
+  if (reader.is_unknown({1, 0})) {
+    field.origin_offset_km.reset();
+  } else if (reader.has({1, 0})) {
+    field.origin_offset_km = -reader.J_of(1) * field.radius_km;
+  }
+  return field;
+}
+
+std::string_view tide_system_name(TideSystem system) {
+  return system == TideSystem::tide_free ? "tide_free" : "zero_tide";
+}
+
+HarmonicField parse_harmonic_field(const std::string& name, std::string_view text,
+                                   const HarmonicChoice& choice) {
+  if (choice.degree < 2 || choice.order < 0 || choice.order > choice.degree) {
+    throw Error(ErrorKind::usage,
+                fmt::format("the degree of a gravity field must be 2 or more, and its order from 0 "
+                            "to that, got {} and {}",
+                            choice.degree, choice.order));
+  }
+  std::vector<Harmonic> wanted;
+  for (int n = 2; n <= choice.degree; ++n) {
+    for (int m = 0; m <= std::min(n, choice.order); ++m) wanted.emplace_back(n, m);
+  }
+  Reader reader(name, text, choice.epoch);
+  reader.read(wanted);
+  HarmonicField field{reader.model()};
+  const TideSystem of_file = reader.tide_system(choice.tide_system_of_file);
+  field.tide = choice.tide_system.value_or(of_file);
+  if (field.tide != of_file) {
+    field.added_to_C20 =
+        field.tide == TideSystem::zero_tide ? permanent_tide_C20 : -permanent_tide_C20;
+  }
+  field.coefficients = SphericalHarmonicCoefficients(choice.degree, choice.order);
+  for (const Harmonic& harmonic : wanted) {
+    const auto [n, m] = harmonic;
+    const bool is_C20 = n == 2 && m == 0;
+    field.coefficients.C(n, m) = reader.normalised(harmonic, 'C', is_C20 ? field.added_to_C20 : 0);
+    if (m > 0) field.coefficients.S(n, m) = reader.normalised(harmonic, 'S');
+  }
+  if (reader.is_unknown({1, 0}) || reader.is_unknown({1, 1})) {
+    field.origin_offset_km.reset();
+    return field;
+  }
+  const double unit = std::sqrt(3) * field.radius_km;
+  auto& offset = *field.origin_offset_km;
+  if (reader.has({1, 0})) offset[2] = unit * reader.normalised({1, 0}, 'C');
+  if (reader.has({1, 1})) {
+    offset[0] = unit * reader.normalised({1, 1}, 'C');
+    offset[1] = unit * reader.normalised({1, 1}, 'S');
+  }
+  return field;
+}
+
+HarmonicField read_harmonic_field(const std::filesystem::path& file, const HarmonicChoice& choice) {
+  return parse_harmonic_field(printable_path(file), content_of(file), choice);
+}
+
+GravityField read_gravity_field(const std::filesystem::path& file, const ZonalChoice& choice) {
+  return parse_gravity_field(printable_path(file), content_of(file), choice);
 }
 
 }  // namespace hamjet::io

@@ -9,7 +9,7 @@
 #include "hamjet/detail/algebra/pack.hpp"
 #include "local_polynomial.hpp"
 #include "plane_polynomial.hpp"
-#include "spherical_harmonic_coefficients.hpp"
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 
 // A field of spherical harmonics as local polynomial. Lengths are in units of the distance r of the
 // point, so that the point is a unit vector e = (x, y, z) and R the number kappa = R/r. The field

@@ -4,7 +4,7 @@
 
 #include "hamjet/detail/algebra/double_double.hpp"
 #include "hamjet/detail/dynamics/local_field.hpp"
-#include "spherical_harmonic_coefficients.hpp"
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 
 namespace hamjet {
 
