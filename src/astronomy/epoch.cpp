@@ -75,11 +75,6 @@ std::optional<std::int64_t> take_fraction(std::string_view& text) {
   return picoseconds;
 }
 
-bool has_leap_second(sys_days of_day) {
-  const auto& table = days_with_leap_second();
-  return std::binary_search(table.begin(), table.end(), of_day);
-}
-
 }  // namespace
 
 const std::vector<std::string_view>& time_system_names() {
@@ -104,6 +99,11 @@ const std::vector<sys_days>& days_with_leap_second() {
     return result;
   }();
   return table;
+}
+
+bool has_leap_second(sys_days of_day) {
+  const auto& table = days_with_leap_second();
+  return std::binary_search(table.begin(), table.end(), of_day);
 }
 
 std::optional<Epoch> parse_epoch(std::string_view text) {

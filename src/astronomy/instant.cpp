@@ -61,14 +61,9 @@ std::int64_t offset_ps(sys_days day, std::int64_t picoseconds) {
   return std::llround(offset * ps_per_s);
 }
 
-bool ends_with_leap_second(sys_days day) {
-  const auto& table = days_with_leap_second();
-  return std::binary_search(table.begin(), table.end(), day);
-}
-
 /// Picoseconds of a day.
 std::int64_t length_of_day(sys_days day, TimeSystem system) {
-  return ps_per_day + (system == TimeSystem::utc && ends_with_leap_second(day) ? ps_per_s : 0);
+  return ps_per_day + (system == TimeSystem::utc && has_leap_second(day) ? ps_per_s : 0);
 }
 
 Epoch utc_of_tai(const Epoch& tai) {

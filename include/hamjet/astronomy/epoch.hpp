@@ -51,6 +51,9 @@ inline double seconds_between(const Epoch& first, const Epoch& last) {
 /// in 1972 to the last one that ERFA knows, at the end of 2016. Source: IERS Bulletin C.
 const std::vector<std::chrono::sys_days>& days_with_leap_second();
 
+/// Whether a day of UTC is one of them, and has 86 401 s.
+bool has_leap_second(std::chrono::sys_days day);
+
 /// The first day whose leap second lies between two moments of UTC, so that counting 86 400 s per
 /// day does not lead from one to the other. No value if there is none.
 std::optional<std::chrono::sys_days> leap_second_between(const Epoch& first, const Epoch& last);

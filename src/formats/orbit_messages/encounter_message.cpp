@@ -14,7 +14,7 @@ namespace hamjet::io {
 namespace {
 
 /// Axes of a CDM that do not rotate; ITRF, the third kind that the standard allows, rotates.
-constexpr std::array<std::string_view, 2> frames = {"GCRF", "EME2000"};
+constexpr std::array<std::string_view, 2> frames_of_cdm = {"GCRF", "EME2000"};
 
 ConjunctionObject object_of(const Scene& scene, const ApproachingSpacecraft& craft,
                             const std::string& name, const std::string& identifier) {
@@ -53,8 +53,8 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
   if (settings.time_system != "UTC") {
     return fmt::format("its dates are in UTC, got ephemeris.time_system {}", settings.time_system);
   }
-  if (std::find(frames.begin(), frames.end(), name_of_axes(settings.reference_frame)) ==
-      frames.end()) {
+  if (std::find(frames_of_cdm.begin(), frames_of_cdm.end(),
+                name_of_axes(settings.reference_frame)) == frames_of_cdm.end()) {
     return fmt::format("its axes are GCRF or EME2000, got ephemeris.reference_frame {}",
                        settings.reference_frame);
   }
