@@ -145,7 +145,7 @@ double frequency_growth(const Scene& scene, const RunResult& run) {
   double largest = 0;
   double last = 0;
   for (const NominalPoint& point : run.nominal) {
-    last = field.linearised_motion(point.state).frequency();
+    last = field.linearised_motion(point.state, scene.start_time + point.time).frequency();
     largest = std::max(largest, last);
   }
   return last > 0 && std::isfinite(largest) ? std::max(1.0, largest / last) : 1;
