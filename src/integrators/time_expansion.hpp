@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <type_traits>
@@ -44,6 +45,8 @@ class TimeExpansion {
         field_coefficients_(fields_.is_empty() ? 0 : list_->operations().size()) {
     const auto operations = list_->operations();
     coefficients_.assign(operations.size() * stride_, T(Real(0)));
+    // Without a time nothing that depends on it is a number.
+    if (list.has_time()) set_time(T(Real(std::numeric_limits<double>::quiet_NaN())));
     for (std::size_t i = list_->inputs(); i < operations.size(); ++i) {
       const Operation& operation = operations[i];
       steps_.push_back({operation.code, i * stride_, operation.u * stride_, operation.v * stride_,
@@ -213,7 +216,7 @@ class TimeExpansion {
 
   /// The coefficient of t^k of a function of the time, which is asked once for all of them.
   T time_value(const Operation& o, int k) {
-    using Lanes = ObjectLanes<T, Real>;
+    using Lanes = TimeLanes<T, Real>;
     using Number = typename Lanes::Number;
     constexpr std::size_t lanes = Lanes::count();
     std::vector<T>& values = time_values_[o.time_function.get()];
@@ -222,8 +225,9 @@ class TimeExpansion {
       Lanes::put(*value(o.u), times.data());
       const std::size_t size = o.time_function->components() * stride_;
       std::vector<Number> at_lane(size);
-      std::vector<Number> all(size * lanes);
+      std::vector<Number> all(size * lanes, std::numeric_limits<Number>::quiet_NaN());
       for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (!(times[lane] == times[lane])) continue;
         o.time_function->expand(times[lane], order_, at_lane.data());
         for (std::size_t j = 0; j < size; ++j) all[j * lanes + lane] = at_lane[j];
       }

@@ -13,11 +13,10 @@
 
 namespace hamjet {
 
-/// The lanes of a number or of a pack, as plain numbers: double-double numbers are handed to
-/// objects in extended precision.
-template <class T, class Real>
+/// The lanes of a number or of a pack, as plain numbers, in which objects are asked.
+template <class T, class Real, class ObjectNumber = Real>
 struct ObjectLanes {
-  using Number = std::conditional_t<std::is_same_v<Real, double>, double, Extended>;
+  using Number = ObjectNumber;
   static constexpr std::size_t count() {
     if constexpr (is_pack<T>) {
       return static_cast<std::size_t>(T::lanes);
@@ -42,6 +41,11 @@ struct ObjectLanes {
     }
   }
 };
+
+/// The same for functions of the time, which know no double-double numbers.
+template <class T, class Real>
+using TimeLanes =
+    ObjectLanes<T, Real, std::conditional_t<std::is_same_v<Real, double>, double, Extended>>;
 
 /// The values of the fields of a list that expand_fields made, and the coefficients of their
 /// monomials. At each point, an object is asked once for all derivatives. T and Real are as in

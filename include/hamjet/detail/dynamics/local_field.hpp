@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "hamjet/algebra/extended.hpp"
+#include "hamjet/detail/algebra/double_double.hpp"
 
 namespace hamjet {
 
@@ -25,6 +26,10 @@ class LocalField {
                       int degree, double* out) const = 0;
   virtual void expand(std::size_t count, const Extended* x, const Extended* y, const Extended* z,
                       int degree, Extended* out) const = 0;
+  /// For references in double-double arithmetic. The default takes the extended ones, point by
+  /// point.
+  virtual void expand(std::size_t count, const DoubleDouble* x, const DoubleDouble* y,
+                      const DoubleDouble* z, int degree, DoubleDouble* out) const;
 
   /// The largest number of waves along a circle about the origin, for example the highest degree of
   /// a gravity field; 0 where no such wave is known.

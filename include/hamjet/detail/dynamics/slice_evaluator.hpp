@@ -170,7 +170,7 @@ class SliceEvaluator {
 
   /// A component of a function of the time; a function is asked once for all its components.
   T time_value(const Operation& o) {
-    using Lanes = ObjectLanes<T, Real>;
+    using Lanes = TimeLanes<T, Real>;
     using Number = typename Lanes::Number;
     constexpr std::size_t lanes = Lanes::count();
     std::vector<T>& values = time_values_[{o.time_function.get(), o.u}];
