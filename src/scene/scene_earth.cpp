@@ -104,7 +104,7 @@ void read_orientation(const TableReader& system, EarthSettings& earth) {
 std::vector<SceneKey> earth_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const EarthSettings preset;
-  return {{"degree", form::integer(0, SphericalHarmonicField::highest_degree),
+  return {{"degree", form::integer(2, SphericalHarmonicField::highest_degree),
            absent::value(preset.degree), "of the harmonics of the Earth's field", owner},
           {"order", form::integer(0, SphericalHarmonicField::highest_degree),
            absent::other("`degree`"), "of the harmonics; 0 leaves zonal ones", owner},

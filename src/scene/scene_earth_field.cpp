@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "../dynamics/fields/spherical_harmonic_coefficients.hpp"
 #include "../store/text_file.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
@@ -16,35 +17,27 @@ namespace {
 
 constexpr int shipped_degree = 20;
 
-const std::vector<std::string_view> tide_systems = {"tide_free", "zero_tide"};
+const std::vector<std::string_view> tide_systems = {tide_system_name(TideSystem::tide_free),
+                                                    tide_system_name(TideSystem::zero_tide)};
 
-/// By how much the normalised C(2,0) of a field without permanent tides is above that with them: A0
-/// H0 k20 / sqrt(5), IERS Conventions (2010), equation 6.14.
-constexpr double permanent_tide = 4.4228e-8 * 0.31460 * 0.30190;
+/// Largest distance of a file's origin from the centre of mass that is ignored, as for zonal
+/// fields.
+void require_origin(const TableReader& system, const HarmonicField& field) {
+  std::optional<double> distance_km;
+  if (const auto& offset = field.origin_offset_km) {
+    distance_km = std::hypot((*offset)[0], (*offset)[1], (*offset)[2]);
+  }
+  require_centre_of_mass(system, distance_km, field.radius_km);
+}
 
-/// Takes the permanent tide out of C(2,0), for the tides of Sun and Moon are no force of the model.
-void take_out_permanent_tide(const TableReader& system, const std::string& of_file,
-                             SphericalHarmonicCoefficients& field) {
-  std::string tides = of_file;
-  if (system.has("tide_system")) {
-    tides = tide_systems[system.choice("tide_system")];
-    if (of_file != "unknown" && tides != of_file) {
-      system.fail("tide_system",
-                  fmt::format("not that of the file, got {} and tide_system {} in its "
-                              "header, must be left out",
-                              in_quotes(tides), in_quotes(of_file)));
-    }
+/// J_n = -sqrt(2n + 1) C_n0 of normalised coefficients.
+ZonalCoefficients zonals_of(const SphericalHarmonicCoefficients& coefficients) {
+  ZonalCoefficients J;
+  const int highest = std::min(coefficients.degree(), ZonalCoefficients::highest);
+  for (int n = ZonalCoefficients::lowest; n <= highest; ++n) {
+    J[n] = -std::sqrt(2.0 * n + 1) * coefficients.C(n, 0);
   }
-  if (tides == "tide_free") return;
-  if (tides != "zero_tide") {
-    system.fail(
-        "gravity_file",
-        fmt::format("a tide system that is not known, got {} in its header, must be "
-                    "tide_free or zero_tide, or tide_system in the scene; the two differ by "
-                    "10 m a day in a low orbit",
-                    in_quotes(of_file)));
-  }
-  if (field.degree() >= 2) field.C(2, 0) += permanent_tide;
+  return J;
 }
 
 }  // namespace
@@ -59,8 +52,15 @@ std::vector<SceneKey> earth_field_keys() {
 
 void read_earth_field(const TableReader& system, const Epoch& epoch, SystemSettings& settings,
                       EarthSettings& earth) {
-  const HarmonicChoice choice = {earth.degree, earth.order,
-                                 [epoch]() -> std::optional<Epoch> { return epoch; }};
+  HarmonicChoice choice;
+  choice.degree = earth.degree;
+  choice.order = earth.order;
+  // Solid tides are no force of the model, and their mean is none either.
+  choice.tide_system = TideSystem::tide_free;
+  if (system.has("tide_system")) {
+    choice.tide_system_of_file = static_cast<TideSystem>(system.choice("tide_system"));
+  }
+  choice.epoch = [epoch]() -> std::optional<Epoch> { return epoch; };
   HarmonicField field;
   if (system.has("gravity_file")) {
     field = parse_harmonic_field(
@@ -79,13 +79,13 @@ void read_earth_field(const TableReader& system, const Epoch& epoch, SystemSetti
     }
     field = parse_harmonic_field("EGM96-to-20.gfc", shipped_gravity_field, choice);
   }
-  take_out_permanent_tide(system, field.zonal.tide_system, *field.coefficients);
-  require_centre_of_mass(system, field.zonal);
-  settings.mu_km3_s2 = field.zonal.mu_km3_s2;
-  settings.radius_km = field.zonal.radius_km;
-  settings.J = field.zonal.J;
-  settings.gravity_file = gravity_file_of(system, field.zonal);
-  earth.field = std::move(field.coefficients);
+  require_origin(system, field);
+  settings.mu_km3_s2 = field.mu_km3_s2;
+  settings.radius_km = field.radius_km;
+  settings.J = zonals_of(field.coefficients);
+  settings.gravity_file = gravity_file_of(system, field, 0);
+  earth.field =
+      std::make_shared<const SphericalHarmonicCoefficients>(std::move(field.coefficients));
 }
 
 }  // namespace hamjet::io

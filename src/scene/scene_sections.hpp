@@ -49,9 +49,11 @@ std::vector<std::string_view> integrator_keys(IntegrationMethod method);
 SystemSettings read_system(const TableReader& root);
 
 /// Refuses a file whose origin lies too far from the centre of mass.
-void require_centre_of_mass(const TableReader& system, const GravityField& field);
+void require_centre_of_mass(const TableReader& system, const std::optional<double>& offset_km,
+                            double radius_km);
 /// What a scene remembers of the file of its field.
-GravityFile gravity_file_of(const TableReader& system, const GravityField& field);
+GravityFile gravity_file_of(const TableReader& system, const GravityModel& field,
+                            const std::optional<double>& origin_offset_km);
 
 /// The moment at which the nominal of a scene starts, from the table `[ephemeris]` or from the
 /// orbit message that the nominal is read from; no value if there is neither.
@@ -189,8 +191,9 @@ OutputSettings read_output(const TableReader& output, SystemModel model);
 Epoch read_epoch(const TableReader& table, std::string_view key);
 ValueForm form_of_epoch();
 
-/// Table `[ephemeris]`. What is known of time, frame and centre, from the nominal's file or from the
-/// epoch of the model earth, may be repeated here, but not changed. A body that the scene names must be the centre of its system.
+/// Table `[ephemeris]`. What is known of time, frame and centre, from the nominal's file or from
+/// the epoch of the model earth, may be repeated here, but not changed. A body that the scene names
+/// must be the centre of its system.
 EphemerisSettings read_ephemeris(const TableReader& ephemeris,
                                  const std::optional<EphemerisSettings>& known,
                                  const SystemSettings& system);

@@ -148,11 +148,11 @@ void read_gravity_file(const TableReader& root, SystemSettings& settings) {
   const GravityField field = parse_gravity_field(
       printable_path(system.path_beside_scene("gravity_file")),
       system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
-  require_centre_of_mass(system, field);
+  require_centre_of_mass(system, field.origin_offset_km, field.radius_km);
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
   settings.J = field.J;
-  settings.gravity_file = gravity_file_of(system, field);
+  settings.gravity_file = gravity_file_of(system, field, field.origin_offset_km);
 }
 
 void read_pair(const TableReader& system, const SystemParameter& parameter,
@@ -182,34 +182,35 @@ void read_parameter(const TableReader& system, const SystemParameter& parameter,
 
 }  // namespace
 
-void require_centre_of_mass(const TableReader& system, const GravityField& field) {
+void require_centre_of_mass(const TableReader& system, const std::optional<double>& offset_km,
+                            double radius_km) {
   bool is_left_out = false;
   system.read_if_any("leave_out_C10", is_left_out);
   if (is_left_out) return;
   constexpr std::string_view remedy =
       "leave_out_C10 = true, for a scene whose own origin is that "
       "centre";
-  if (!field.origin_offset_km) {
+  if (!offset_km) {
     system.fail("gravity_file",
                 fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
                             "centre of mass, must be one with gravity_epoch in [system] "
                             "or epoch in [ephemeris], or {}",
                             remedy));
   }
-  if (std::abs(*field.origin_offset_km) <= largest_origin_offset * field.radius_km) return;
+  if (std::abs(*offset_km) <= largest_origin_offset * radius_km) return;
   system.fail("gravity_file",
               fmt::format("the origin is not the centre of mass, got a file with C(1,0) that puts "
                           "that centre at z = {:.4g} m, must be within {:.2g} m, or {}",
-                          1000 * *field.origin_offset_km,
-                          1000 * largest_origin_offset * field.radius_km, remedy));
+                          1000 * *offset_km, 1000 * largest_origin_offset * radius_km, remedy));
 }
 
-GravityFile gravity_file_of(const TableReader& system, const GravityField& field) {
+GravityFile gravity_file_of(const TableReader& system, const GravityModel& field,
+                            const std::optional<double>& origin_offset_km) {
   GravityFile result = {.file = system.text_if_any("gravity_file").value_or("built in"),
                         .model_name = field.model_name,
                         .tide_system = field.tide_system,
                         .epoch = field.epoch ? format_epoch(*field.epoch) : "",
-                        .origin_offset_m = field.origin_offset_km};
+                        .origin_offset_m = origin_offset_km};
   if (auto& offset = result.origin_offset_m) *offset *= 1000;
   return result;
 }

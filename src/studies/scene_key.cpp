@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "../dynamics/fields/spherical_harmonic_coefficients.hpp"
 #include "descriptions/settings_fields.hpp"
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 #include "hamjet/studies/comparison.hpp"
 #include "hamjet/version.hpp"
 #include "reference.hpp"

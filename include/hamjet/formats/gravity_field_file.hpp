@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 #include "hamjet/detail/dynamics/zonal_coefficients.hpp"
-#include "hamjet/detail/formats/epoch.hpp"
 
 namespace hamjet::io {
 
