@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
-#include "hamjet/detail/formats/epoch.hpp"
+#include "hamjet/astronomy/epoch.hpp"
 
 // A coefficient of a gravity field file, which may vary with time. Source: F. Barthelmes, C.
 // Förste, The ICGEM-format, GFZ Potsdam (2011), and its version 2.0, in which every record of a
