@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "algebra/state_sums.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
@@ -103,6 +106,68 @@ TEST(EventStudy, HasTheTimesOfNeighbours) {
   // Order 3 leaves the fourth power.
   EXPECT_LT(miss(1e-4), 1e-6);
   EXPECT_NEAR(std::log2(miss(4e-3) / miss(2e-3)), 4, 0.3);
+}
+
+/// The place of the next apocentre, and the time until it, of a deputy on a Kepler ellipse, by its
+/// own elements.
+std::pair<Eigen::Vector3d, double> next_apocentre(double mu, const std::vector<double>& state) {
+  const Eigen::Vector3d x(state.data()), v(state.data() + 3);
+  const Eigen::Vector3d to_pericentre = v.cross(x.cross(v)) / mu - x.normalized();
+  const double e = to_pericentre.norm();
+  const double a = 1 / (2 / x.norm() - v.squaredNorm() / mu);
+  // e sin E and e cos E of the place.
+  const double sine = x.dot(v) / std::sqrt(mu * a);
+  const double cosine = 1 - x.norm() / a;
+  const double E = std::atan2(sine, cosine);
+  return {-(1 + e) * a / e * to_pericentre,
+          (std::numbers::pi - (E - sine)) * std::sqrt(a * a * a / mu)};
+}
+
+// Near a circle the series of an apsis are those of an angle in deviations over the eccentricity:
+// misses differ by powers of ten from one direction to another. Deputies at random are within three
+// times of what is told.
+TEST(EventStudy, TellsTheMissesOfTheWorstDeputies) {
+  for (const int order : {1, 4}) {
+    const Scene scene = io::parse_scene(
+        "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\n"
+        "e = 2e-4\ni_deg = 50\nta_deg = 200\n[jet]\norder = " +
+            std::to_string(order) +
+            "\nduration_orbits = 1.5\n[event]\nsurface = \"apsis\"\ndirection = \"falling\"\n"
+            "amplitudes_m = [1, 100]\n",
+        "kepler.toml");
+    const EventStudy study = study_event(scene);
+    const double mu =
+        398600.4415 * std::pow(scene.units.time_s, 2) / std::pow(scene.units.length_km, 3);
+    const double metres = scene.units.length_km * 1000;
+    ASSERT_NEAR(next_apocentre(mu, scene.nominal).second * scene.units.time_s, study.time_s(),
+                1e-5);
+    std::mt19937_64 generator(7);
+    std::normal_distribution<double> normal;
+    for (const EventMisses& told : study.misses) {
+      double worst = 0;
+      double worst_time = 0;
+      for (int k = 0; k < 500; ++k) {
+        std::vector<double> deviation;
+        for (const double size : {1.0, std::sqrt(mu / std::pow(9000e3 / metres, 3))}) {
+          const Eigen::Vector3d direction =
+              Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+          for (const double x : direction)
+            deviation.push_back(x * size * told.amplitude_m / metres);
+        }
+        const auto [place, time] = next_apocentre(mu, state_sum(scene.nominal, deviation));
+        Eigen::Vector3d predicted;
+        for (std::size_t i = 0; i < 3; ++i) {
+          predicted[static_cast<Eigen::Index>(i)] = evaluate<double>(study.map.state[i], deviation);
+        }
+        worst = std::max(worst, (predicted - place).norm() * metres);
+        const double told_time = evaluate<double>(study.map.time, deviation);
+        worst_time = std::max(worst_time, std::abs(told_time - time) * scene.units.time_s);
+      }
+      ASSERT_TRUE(told.position_m && told.time_s);
+      EXPECT_LT(worst, 3 * *told.position_m + 1e-5) << order << ' ' << told.amplitude_m;
+      EXPECT_LT(worst_time, 3 * *told.time_s + 1e-6) << order << ' ' << told.amplitude_m;
+    }
+  }
 }
 
 // A pericentre at the start is none after it, wherever the duration ends.
