@@ -20,20 +20,6 @@ constexpr std::size_t flown_random_directions = 8;
 /// Of each degree that chooses deviations, to both sides.
 constexpr std::size_t flown_maxima = 4;
 
-/// A direction in position and one in velocity; the standard library's distributions differ between
-/// implementations.
-Vector6 random_direction(std::mt19937_64& generator) {
-  Vector6 result;
-  for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-    Eigen::Vector3d direction;
-    do {
-      for (double& x : direction) x = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1;
-    } while (direction.norm() > 1 || direction.norm() < 0.1);
-    result.segment<3>(first) = direction.normalized();
-  }
-  return result;
-}
-
 /// The direction and its opposite, where neither is there yet: a degree contributes as much at
 /// both.
 void add_both(std::vector<Vector6>& directions, const Vector6& direction) {
@@ -72,7 +58,7 @@ EventFlights::EventFlights(const Scene& scene, const EventCondition<double>& con
   std::mt19937_64 generator(1);
   std::vector<Vector6> samples;
   for (std::size_t k = 0; k < random_directions; ++k)
-    samples.push_back(random_direction(generator));
+    samples.push_back(random_coordinates(generator));
   directions_.assign(samples.begin(), samples.begin() + flown_random_directions);
   Matrix<double> variables = Matrix<double>::Identity(6, 6);
   for (Eigen::Index i = 3; i < 6; ++i) variables(i, i) = mean_motion_;
