@@ -7,6 +7,20 @@ set(HAMJET_LAYERS text algebra dynamics astronomy integrators maps charts poinca
 # after a change.
 set(HAMJET_UNITY_FILES 24 CACHE STRING "Files of a folder that a unity build compiles together")
 
+# Adds the library, of three targets: each compiles the templates over the number type for one of them (see
+# below), and the shell also the layers whose speed does not matter. src/CMakeLists.txt says with which
+# options, and tests/fuzz/CMakeLists.txt with which others.
+macro(hamjet_add_library)
+  add_library(hamjet STATIC $<TARGET_OBJECTS:hamjet_shell> $<TARGET_OBJECTS:hamjet_double_double>)
+  add_library(hamjet_shell OBJECT)
+  add_library(hamjet_double_double OBJECT)
+  target_compile_definitions(hamjet PRIVATE HAMJET_INSTANTIATED_REAL=double)
+  target_compile_definitions(hamjet_shell PRIVATE HAMJET_INSTANTIATED_REAL=Extended)
+  target_compile_definitions(hamjet_double_double PRIVATE HAMJET_INSTANTIATED_REAL=DoubleDouble)
+  set(HAMJET_SHELL hamjet_shell)
+  set(HAMJET_LIBRARY_TARGETS hamjet hamjet_shell hamjet_double_double)
+endmacro()
+
 # Adds to the target all sources of the layer whose CMakeLists.txt calls it, but those behind EXCEPT, which
 # it adds itself. With CMAKE_UNITY_BUILD those of a folder are compiled together, so many at a time.
 # Those behind FOR_EACH_REAL are templates over the number type and are compiled twice, each time for one

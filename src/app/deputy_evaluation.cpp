@@ -28,6 +28,22 @@ void set_rounding(EvaluatedScene& scene, const SixNumbers<double>& start, double
                      scene.chief.units.length_km * 1000;
 }
 
+/// The flow to the third degree; none if it cannot be integrated to that.
+std::shared_ptr<const DeputyFlow> flow_of_third_degree(const Scene& scene,
+                                                       const IntegratorSettings& integrator,
+                                                       const CoordinatesAtEnds& coordinates) {
+  Scene further = scene;
+  further.order = 3;
+  try {
+    const ComputedProblem problem = make_problem(further);
+    return DeputyFlowPropagation(further, problem, integrator, coordinates)
+        .advance_to(scene.duration);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 EvaluatedScene evaluated_scene(const Scene& scene) {
@@ -46,6 +62,9 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
     } catch (const Error& error) {
       // The flow is there all the same; nothing is known of its errors then, which is said.
       if (error.kind() != ErrorKind::numerical) throw;
+    }
+    if (scene.order == 2 && result.coordinates != JetCoordinates::cartesian) {
+      result.further = flow_of_third_degree(scene, integrator, propagation.coordinates());
     }
     if (const auto& box = propagation.flow_box()) {
       chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
@@ -139,7 +158,10 @@ io::StoredJet stored_polynomials(const EvaluatedScene& scene) {
 
 double DeputyEvaluation::multiply_adds() const {
   double sum = 0;
-  for (const Worker& worker : workers_) sum += worker.predictor.multiply_adds();
+  for (const Worker& worker : workers_) {
+    sum += worker.predictor.multiply_adds();
+    if (worker.further) sum += worker.further->multiply_adds();
+  }
   return sum;
 }
 
@@ -149,6 +171,7 @@ double DeputyEvaluation::chart_seconds() const {
   for (const Worker& worker : workers_) {
     all += worker.seconds;
     polynomials += worker.predictor.polynomial_seconds();
+    if (worker.further) polynomials += worker.further->polynomial_seconds();
   }
   return all > 0 ? seconds_ * (1 - polynomials / all) : 0;
 }
@@ -164,6 +187,9 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
   const auto predictions = std::span(worker.predictions).subspan(start);
   worker.predictor.predict(initial, degree_, predictions);
   worker.estimates.resize(start + initial.size());
+  std::vector<DeputyPrediction> third(worker.further ? initial.size() : 0);
+  if (worker.further) worker.further->predict(initial, 3, third);
+  const auto third_of = [&](std::size_t k) { return third.empty() ? nullptr : &third[k]; };
   std::vector<std::size_t> bent;
   for (std::size_t k = 0; k < initial.size(); ++k) {
     const DeputyPrediction& found = predictions[k];
@@ -179,14 +205,15 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
         lower[h] = h == 0 ? found.deviation : lower[h - 1];
         for (std::size_t i = 0; i < 6; ++i) lower[h][i] -= found.highest[h][i];
       }
-      told = curved_estimate(initial[k], found.deviation, lower);
+      told = curved_estimate(initial[k], found.deviation, lower, third_of(k));
     }
   }
   std::vector<std::array<SixNumbers<double>, 3>> lower(bent.size());
   worker.predictor.predict_lower(bent, lower);
   for (std::size_t j = 0; j < bent.size(); ++j) {
     const std::size_t k = bent[j];
-    worker.estimates[start + k] = curved_estimate(initial[k], predictions[k].deviation, lower[j]);
+    worker.estimates[start + k] =
+        curved_estimate(initial[k], predictions[k].deviation, lower[j], third_of(k));
   }
 }
 
@@ -195,7 +222,11 @@ void DeputyEvaluation::run(
   // Fewer take no longer than a thread takes to start.
   constexpr std::size_t fewest_points = 256;
   const std::size_t tasks = std::clamp<std::size_t>(pending_.size() / fewest_points, 1, threads_);
-  while (workers_.size() < tasks) workers_.push_back({DeputyPredictor(*scene_.flow), {}, {}, 0});
+  const DeputyFlow* const further = further_flow();
+  while (workers_.size() < tasks) {
+    workers_.push_back({DeputyPredictor(*scene_.flow), {}, {}, {}, 0});
+    if (further) workers_.back().further.emplace(*further);
+  }
   const auto first_of = [&](std::size_t task) { return pending_.size() * task / tasks; };
   {
     const Stopwatch watch(seconds_);
@@ -273,9 +304,15 @@ void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
   told.integration_m += speed(found) / speed(chief) * chief_error() * length_m;
 }
 
-MissEstimate DeputyEvaluation::curved_estimate(
-    const SixNumbers<double>& initial, const SixNumbers<double>& found,
-    const std::array<SixNumbers<double>, 3>& lower) const {
+const DeputyFlow* DeputyEvaluation::further_flow() const {
+  if (degree_ != 2 || scene_.coordinates == JetCoordinates::cartesian) return nullptr;
+  return scene_.flow->order() > 2 ? scene_.flow.get() : scene_.further.get();
+}
+
+MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
+                                               const SixNumbers<double>& found,
+                                               const std::array<SixNumbers<double>, 3>& lower,
+                                               const DeputyPrediction* third) const {
   using Support = TruncationEstimate::Support;
   constexpr double least_decay = 0.5;  // of the changes of two degrees that is relied upon
   constexpr double largest_decay = 2;
@@ -291,6 +328,13 @@ MissEstimate DeputyEvaluation::curved_estimate(
   const double size = std::max(distance(initial, none), distance(found, none));
   double missing = change;
   bool is_decaying = false;
+  const double next = third ? distance(third->deviation, found) : change;
+  if (degree_ == 2 && next < change) {
+    // What is left goes on as degree 3 does, or as degree 2 did: the third may vanish by chance.
+    const double decay = change / size;
+    missing = std::max(next / (1 - std::min(next / change, least_decay)), change * decay * decay);
+    missing = std::min(missing, change);
+  }
   if (degree_ >= 3) {
     const double before = distance(lower[0], lower[1]);
     const double two_before = distance(lower[1], lower[2]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct EvaluatedScene {
   CanonicalFactors told;          ///< see told_factors
   ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
+  /// Of order 2 in curved coordinates, the flow to the third degree, by which the estimate knows
+  /// what degree 2 leaves out; none of a stored jet.
+  std::shared_ptr<const DeputyFlow> further;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
   std::vector<double> stored_end;
@@ -81,6 +85,7 @@ class DeputyEvaluation {
   /// A thread's own: what it predicts with, where it writes, and the time it has worked.
   struct Worker {
     DeputyPredictor predictor;
+    std::optional<DeputyPredictor> further;  ///< see further_flow
     std::vector<DeputyPrediction> predictions;
     std::vector<MissEstimate> estimates;
     double seconds = 0;
@@ -105,10 +110,15 @@ class DeputyEvaluation {
   ///   max( c_N max(q, 1/2), c_(N-1) q^2 ) ,
   ///
   /// q the decay of c_(N-2) to c_N, at most 1, or 2 where c_N is above c_(N-1). Order 2 has no such
-  /// decay and states c_2 itself; order 1 is unknown. Outside where c_N is more than a tenth of the
+  /// decay: it states `third`, the predictions by degree 3, with what their decay adds, and where
+  /// there are none c_2 itself; order 1 is unknown. Outside where c_N is more than a tenth of the
   /// deviation; where changes do not fall, and of order 2, where it is more than 1e-4 of it.
   MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
-                               const std::array<SixNumbers<double>, 3>& lower) const;
+                               const std::array<SixNumbers<double>, 3>& lower,
+                               const DeputyPrediction* third) const;
+  /// The flow by which predictions of degree 2 in curved coordinates are compared with those of
+  /// degree 3; null where there is none.
+  const DeputyFlow* further_flow() const;
 
   const EvaluatedScene& scene_;
   double momentum_unit_;

@@ -137,11 +137,16 @@ def judge_approaches(judgement, scene, told, begin, end):
     least, when = scene.field.least_separations(scene.chief[None], scene.deputy_state[None], begin,
                                                 end, looks=60, tolerance=REAL(2) ** -50)
     inner = (when[0] - begin) > 1e-6 * (end - begin) and (end - when[0]) > 1e-6 * (end - begin)
-    distances = [a["distance_m"] for a in told["approaches"]]
+    # Of a passage that an edge of the window cuts the whole is told of beside the window.
+    whole = told["whole_passage"]["window_s"] if told["whole_passage"] else [begin, end]
     for approach in told["approaches"]:
         time = REAL(approach["time_s"])
-        judgement.require("an approach is in the window", begin * (1 - REAL(1e-12)) <= time
-                          <= end * (1 + REAL(1e-12)))
+        rounding = REAL(1e-12) * max(abs(begin), abs(end))
+        judgement.require("an approach is in the window or in a passage that it cuts",
+                          whole[0] - rounding <= time <= whole[1] + rounding)
+        judgement.require("an approach is where it says that it is",
+                          (begin + rounding <= time <= end - rounding) <= approach["in_window"]
+                          <= (begin - rounding <= time <= end + rounding))
         both = [scene.field.to(s, time) for s in (scene.chief, scene.deputy_state)]
         apart = both[1] - both[0]
         distance, speed = orbit.norm(apart[:3]), orbit.norm(apart[3:])
@@ -158,10 +163,18 @@ def judge_approaches(judgement, scene, told, begin, end):
                           abs(orbit.dot(apart[:3], apart[3:]) / bend),
                           1e-6 * float(scene.period) + 1e-3)
         plane = approach.get("short_encounter")
+        if plane:
+            edges = min(time - begin, end - time)
+            passage = REAL(plane["passage_s"])
+            judgement.require("whether the window cuts a passage",
+                              plane["cut_by_window"] == bool(edges < passage)
+                              or abs(edges - passage) < 1e-9 * passage + rounding)
         if plane and plane["holds"]:
             judgement.note("collision: short encounter over probability",
                            plane["foster"] / max(told["probability"], 1e-12))
     if inner:
+        # Those outside the window are no answer to what is nearest in it.
+        distances = [a["distance_m"] for a in told["approaches"] if a["in_window"]]
         judgement.at_most("distance of the nearest approach (m)", min(distances, default=np.inf),
                           least[0] * (1 + 1e-6) + 1e-3)
     return least[0]

@@ -83,6 +83,8 @@ inline CollisionResult sample_collision() {
   approach.refusal = "no relative velocity";
   result.approaches.push_back(approach);
   approach.time_s = 60;
+  approach.is_in_window = false;
+  approach.is_cut = true;
   approach.flights = 64;
   approach.position_error_m = 0.0625;
   approach.time_error_s = 0.03125;

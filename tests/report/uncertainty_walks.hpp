@@ -108,6 +108,7 @@ inline ExpectedColumns least_separation_columns() {
 
 inline ExpectedColumns approaches_columns() {
   return {{"time_s", {"s", 60}},
+          {"in_window", {"", false}},
           {"distance_m", {"m", 17}},
           {"speed_m_s", {"m/s", 8}},
           {"time_deviation_s", {"s", 0.375}},
@@ -122,7 +123,7 @@ inline ExpectedColumns short_encounter_columns() {
   return {
       {"foster", {"", 0.26}},        {"alfano", {"", 0.27}},           {"chan", {"", 0.28}},
       {"offset_m", {"m", {11, 13}}}, {"deviation_m", {"m", {19, 23}}}, {"passage_s", {"s", 1.5}},
-      {"departure", {"", 0.015625}}, {"cut_by_window", {"", false}},   {"holds", {"", true}}};
+      {"departure", {"", 0.015625}}, {"cut_by_window", {"", true}},    {"holds", {"", true}}};
 }
 
 inline ExpectedColumns safety_columns() {

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 
+#include "algebra/state_sums.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
@@ -103,6 +106,80 @@ TEST(EventStudy, HasTheTimesOfNeighbours) {
   // Order 3 leaves the fourth power.
   EXPECT_LT(miss(1e-4), 1e-6);
   EXPECT_NEAR(std::log2(miss(4e-3) / miss(2e-3)), 4, 0.3);
+}
+
+/// A Kepler ellipse through a state, by its own elements.
+struct KeplersEllipse {
+  KeplersEllipse(double mu, const std::vector<double>& state) {
+    const Eigen::Vector3d x(state.data()), v(state.data() + 3);
+    const Eigen::Vector3d vector = v.cross(x.cross(v)) / mu - x.normalized();
+    a = 1 / (2 / x.norm() - v.squaredNorm() / mu);
+    e = vector.norm();
+    n = std::sqrt(mu / (a * a * a));
+    along = vector / e;
+    across = x.cross(v).normalized().cross(along);
+    // e sin E and e cos E of the state.
+    const double sine = x.dot(v) / std::sqrt(mu * a);
+    mean = std::atan2(sine, 1 - x.norm() / a) - sine;
+  }
+  double time_of_apocentre() const { return (std::numbers::pi - mean) / n; }
+  Eigen::Vector3d place(double time) const {
+    const double anomaly = mean + n * time;
+    double E = anomaly;
+    for (int k = 0; k < 20; ++k) E = anomaly + e * std::sin(E);
+    return a * (std::cos(E) - e) * along + a * std::sqrt(1 - e * e) * std::sin(E) * across;
+  }
+
+  double a, e, n, mean;
+  Eigen::Vector3d along, across;
+};
+
+// Near a circle the series of an apsis are those of an angle in deviations over the eccentricity:
+// misses differ by powers of ten from one direction to another. Deputies at random are within three
+// times of what is told.
+TEST(EventStudy, TellsTheMissesOfTheWorstDeputies) {
+  for (const int order : {1, 4}) {
+    const Scene scene = io::parse_scene(
+        "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\n"
+        "e = 2e-4\ni_deg = 50\nta_deg = 200\n[jet]\norder = " +
+            std::to_string(order) +
+            "\nduration_orbits = 1.5\n[event]\nsurface = \"apsis\"\ndirection = \"falling\"\n"
+            "amplitudes_m = [1, 100]\n",
+        "kepler.toml");
+    const EventStudy study = study_event(scene);
+    const double mu =
+        398600.4415 * std::pow(scene.units.time_s, 2) / std::pow(scene.units.length_km, 3);
+    const double metres = scene.units.length_km * 1000;
+    ASSERT_NEAR(KeplersEllipse(mu, scene.nominal).time_of_apocentre() * scene.units.time_s,
+                study.time_s(), 1e-5);
+    std::mt19937_64 generator(7);
+    std::normal_distribution<double> normal;
+    for (const EventMisses& told : study.misses) {
+      double worst = 0;
+      double worst_time = 0;
+      for (int k = 0; k < 500; ++k) {
+        std::vector<double> deviation;
+        for (const double size : {1.0, std::sqrt(mu / std::pow(9000e3 / metres, 3))}) {
+          const Eigen::Vector3d direction =
+              Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+          for (const double x : direction)
+            deviation.push_back(x * size * told.amplitude_m / metres);
+        }
+        const KeplersEllipse own(mu, state_sum(scene.nominal, deviation));
+        const double time = evaluate<double>(study.map.time, deviation);
+        Eigen::Vector3d predicted;
+        for (std::size_t i = 0; i < 3; ++i) {
+          predicted[static_cast<Eigen::Index>(i)] = evaluate<double>(study.map.state[i], deviation);
+        }
+        worst = std::max(worst, (predicted - own.place(time)).norm() * metres);
+        worst_time =
+            std::max(worst_time, std::abs(own.time_of_apocentre() - time) * scene.units.time_s);
+      }
+      ASSERT_TRUE(told.position_m && told.time_s);
+      EXPECT_LT(worst, 3 * *told.position_m + 1e-5) << order << ' ' << told.amplitude_m;
+      EXPECT_LT(worst_time, 3 * *told.time_s + 1e-6) << order << ' ' << told.amplitude_m;
+    }
+  }
 }
 
 // A pericentre at the start is none after it, wherever the duration ends.

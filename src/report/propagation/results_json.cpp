@@ -7,6 +7,7 @@
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
+#include "../../studies/formation/charted_jet.hpp"
 #include "../../studies/reference.hpp"
 #include "../study_checks.hpp"
 #include "hamjet/report/results.hpp"
@@ -140,6 +141,8 @@ Json polynomials_json(const PropagationResult& result, const RunResult& run) {
   json["nominal_final"] = charted.nominal_final;
   json["symplecticity_by_degree"] = symplecticity_json(charted.symplecticity);
   json["error_estimate_by_degree"] = by_degree_json(charted.error_estimate.by_degree);
+  // What is relative to the coefficients of these says nothing.
+  json["degrees_of_rounding"] = degrees_without_digits(result.scene, charted).of_rounding;
   json["error_estimate_failure"] = text_or_null(charted.error_estimate.failure);
   json["error_estimate_seconds"] = charted.error_estimate.seconds;
   if (!description.flow_box) return json;

@@ -6,6 +6,7 @@
 #include "../../formats/results_names.hpp"
 #include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
+#include "../../studies/formation/charted_jet.hpp"
 #include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
@@ -42,7 +43,7 @@ std::string largest_of(const std::vector<SymplecticityDefect>& defects) {
 std::string largest_defect(const RunResult& run) { return largest_of(run.symplecticity); }
 
 /// What came of the polynomials in the scene's coordinates, if it has others than Cartesian.
-std::string charted_line(const RunResult& run) {
+std::string charted_line(const Scene& scene, const RunResult& run) {
   if (!run.charted) return "";
   const ChartedJet& charted = *run.charted;
   const std::string coordinates = name_of(charted.coordinates);
@@ -50,13 +51,25 @@ std::string charted_line(const RunResult& run) {
     return fmt::format("NOT COMPUTED: {}: {} coordinates: {}\n", run.settings.label, coordinates,
                        charted.failure);
   }
+  const DegreesWithoutDigits without = degrees_without_digits(scene, charted);
+  std::vector<SymplecticityDefect> defects = charted.symplecticity;
+  std::erase_if(defects, [&](const auto& defect) { return without.has_rounding_alone(defect); });
   const JetErrorEstimate& estimate = charted.error_estimate;
-  return fmt::format(
-      "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}, error {}\n",
+  std::string error = "not estimated: " + estimate.failure;
+  if (estimate.by_degree) {
+    std::vector<double> errors = *estimate.by_degree;
+    for (const int degree : without.of_rounding) errors[static_cast<std::size_t>(degree)] = 0;
+    error = "estimate " + size_text(*std::max_element(errors.begin(), errors.end()));
+  }
+  std::string text = fmt::format(
+      "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}, error {}",
       run.settings.label, coordinates, counted(charted.jet.front().space().variables(), "variable"),
-      duration_text(charted.seconds), largest_of(charted.symplecticity),
-      estimate.by_degree ? "estimate " + size_text(estimate.largest())
-                         : "not estimated: " + estimate.failure);
+      duration_text(charted.seconds), largest_of(defects), error);
+  if (!without.of_rounding.empty()) {
+    text += fmt::format("; without degree {}, rounding alone beside degree 1",
+                        fmt::join(without.of_rounding, ", "));
+  }
+  return text + "\n";
 }
 
 /// In a word what came of a run; the lines below the table say more.
@@ -64,6 +77,7 @@ std::string verdict(const Scene& scene, const RunResult& run) {
   if (!run.failure.empty()) return "failed";
   if (!run.failed_checks.empty()) return "check failed";
   if (!no_digits_warning(run).empty()) return "no digit";
+  if (!charted_digits_warning(scene, run).empty()) return "no digit";
   if (!near_singular_warning(scene, run).empty()) return "near singular";
   const bool is_incomplete = std::any_of(run.kinds.begin(), run.kinds.end(),
                                          [](const auto& kind) { return !kind.failure.empty(); });
@@ -284,7 +298,7 @@ std::string summary_table(const PropagationResult& result) {
     for (const std::string& check : run.failed_checks) {
       text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);
     }
-    text += charted_line(run);
+    text += charted_line(scene, run);
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) {
         text += fmt::format("NOT COMPUTED: {}: {}\n", run.settings.label, kind.failure);

@@ -35,8 +35,12 @@ nlohmann::ordered_json collision_json(const CollisionResult& result) {
 }
 
 /// Whether the formulas of a short encounter hold, and why not.
-std::string judgement(const ShortEncounter& plane) {
-  if (plane.holds()) return "motion is straight while they pass";
+std::string judgement(const UncertainApproach& approach) {
+  const ShortEncounter& plane = *approach.plane;
+  if (plane.holds()) {
+    return std::string("motion is straight while they pass") +
+           (approach.is_cut ? ", of the whole passage" : "");
+  }
   const std::string passage = duration_text(2 * plane.passage);
   if (plane.is_cut) {
     return fmt::format("does not hold, the window cuts the passage of {} off", passage);
@@ -52,7 +56,7 @@ std::string plane_text(const UncertainApproach& approach) {
   const ShortEncounter& plane = *approach.plane;
   std::string text =
       fmt::format("    as a short encounter {:.3e} (Foster, Alfano), {:.3e} (Chan): {}",
-                  plane.alfano, plane.chan, judgement(plane));
+                  plane.alfano, plane.chan, judgement(approach));
   // Chan's disc is one of the density's standard deviations, of the same area.
   constexpr double much = 0.01;
   const double of_disc = plane.alfano > 0 ? plane.chan / plane.alfano - 1 : 0;
@@ -121,10 +125,10 @@ std::string collision_table_text(const CollisionResult& result) {
   if (result.approaches.empty()) text += "  the means have no closest approach in the window\n";
   for (const UncertainApproach& approach : result.approaches) {
     text += fmt::format(
-        "  closest approach of the means {:.6g} s: {:.6g} m at {:.4g} m/s; 1 sigma {:.3g} s and "
+        "  closest approach of the means {:.6g} s{}: {:.6g} m at {:.4g} m/s; 1 sigma {:.3g} s and "
         "{:.3g} m; ",
-        approach.time_s, approach.distance_m, approach.speed_m_s, approach.time_deviation_s,
-        approach.distance_deviation_m);
+        approach.time_s, approach.is_in_window ? "" : " (outside the window)", approach.distance_m,
+        approach.speed_m_s, approach.time_deviation_s, approach.distance_deviation_m);
     text += approach.holds(result.watch.radius_m)
                 ? fmt::format("its polynomials are within {:.1e} m and {:.1e} s of {} flights\n",
                               approach.position_error_m, approach.time_error_s, approach.flights)

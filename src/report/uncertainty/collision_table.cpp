@@ -114,8 +114,11 @@ TableView least_separation_table(const CollisionResult& result) {
 TableView approaches_table(const CollisionResult& result) {
   const double radius_m = result.watch.radius_m;
   ResultTable<const UncertainApproach*> table("approaches", "/collision", {"approaches"},
-                                              "Closest approaches of the means in the window.");
+                                              "Closest approaches of the means in the window, and "
+                                              "in whole passages that an edge of it cuts.");
   table.add("time_s", "s", "since the start", &UncertainApproach::time_s);
+  table.add("in_window", "", "whether it is in `window_s`, not only in that of the whole passage",
+            &UncertainApproach::is_in_window);
   table.add("distance_m", "m", "of the means", &UncertainApproach::distance_m);
   table.add("speed_m_s", "m/s", "of the means, relative", &UncertainApproach::speed_m_s);
   table.add("time_deviation_s", "s", "standard deviation of the time, linear",
@@ -141,8 +144,9 @@ TableView approaches_table(const CollisionResult& result) {
 TableView short_encounter_table(const CollisionResult& result) {
   ResultTable<const UncertainApproach*> table(
       "short_encounter", "", {"approaches"},
-      "The formulas for short encounters, of each closest approach; nothing where they have no "
-      "answer. In summary.json at `/collision/approaches/.../short_encounter`.");
+      "The formulas for short encounters, of each closest approach and the whole of its passage; "
+      "nothing where they have no answer. In summary.json at "
+      "`/collision/approaches/.../short_encounter`.");
   table.leave_rows_out_of_json();
   const auto has_plane = [](const UncertainApproach* row) { return row->plane.has_value(); };
   const auto add = [&](const char* name, const char* unit, const char* meaning, auto member) {
@@ -167,9 +171,11 @@ TableView short_encounter_table(const CollisionResult& result) {
   add("passage_s", "s", "in which they pass, to each side", &ShortEncounter::passage);
   add("departure", "", "of the motion from a straight one, in standard deviations",
       &ShortEncounter::departure);
-  add("cut_by_window", "", "whether an edge of the window cuts the passage",
-      &ShortEncounter::is_cut);
-  add("holds", "", "whether the formulas do: a departure below 0.1, and no cut",
+  table.add_if(has_plane, "cut_by_window", "", "whether an edge of `window_s` cuts the passage",
+               &UncertainApproach::is_cut);
+  add("holds", "",
+      "whether the formulas do: a departure below 0.1, and no cut but one that `whole_passage` has "
+      "the probability without",
       &ShortEncounter::holds);
   const auto rows = approaches_of(result);
   TableView view = std::move(table).view(rows, {rows.size()});

@@ -6,20 +6,17 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <random>
-#include <span>
 #include <string>
 
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
-#include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
-#include "hamjet/algebra/calculus.hpp"
+#include "event_flights.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
@@ -34,15 +31,8 @@ constexpr double most_event_tolerance = 1e-14;
 constexpr int places_of_step = 8;
 /// A start nearer to the surface than this part of the condition's size is on it.
 constexpr double on_surface = 1e-12;
-constexpr int flown_deputies = 8;
 
 using State = std::vector<double>;
-
-double value_at(const EventCondition<double>& condition, const State& state) {
-  static const SpacePointer constants = SeriesSpace::create(1, 0);
-  const auto z = [&](std::size_t i) { return Series<double>(constants, state[i]); };
-  return condition({z(0), z(1), z(2), z(3), z(4), z(5)})[0];
-}
 
 /// Finds the chief's events one after the other, by their changes of sign along its trajectory.
 class EventSearch {
@@ -81,7 +71,7 @@ class EventSearch {
 
  private:
   double at(double time) const {
-    const double value = value_at(condition_, nominal_of(trajectory_.at(time)));
+    const double value = condition_at(condition_, nominal_of(trajectory_.at(time)));
     // No change of sign would show an event beside what is no number.
     if (std::isnan(value)) {
       throw Error(ErrorKind::numerical,
@@ -146,104 +136,6 @@ class EventSearch {
   EventDirection direction_;
   JetTrajectory<double> trajectory_;
   int found_ = 0;
-};
-
-/// What polynomials of a degree say of a deviation: all, or constant and linear terms.
-double predicted(const Series<double>& series, std::span<const double> deviation, bool is_linear) {
-  if (!is_linear) return evaluate<double>(series, deviation);
-  double sum = series[0];
-  for (std::size_t i = 0; i < deviation.size(); ++i) sum += series[1 + i] * deviation[i];
-  return sum;
-}
-
-/// Deputies flown to their predicted events.
-class EventFlights {
- public:
-  EventFlights(const Scene& scene, const EventCondition<double>& condition,
-               const EventMap<double>& map)
-      : scene_(scene), condition_(condition), map_(map), system_(make_system(scene)) {}
-
-  EventMisses fly(double amplitude_m) const {
-    EventMisses misses;
-    misses.amplitude_m = amplitude_m;
-    for (const bool is_linear : {false, true}) {
-      try {
-        const Miss worst = largest_miss(amplitude_m, is_linear);
-        if (!std::isfinite(worst.position_m) || !std::isfinite(worst.time_s)) continue;
-        (is_linear ? misses.linear_position_m : misses.position_m) = worst.position_m;
-        (is_linear ? misses.linear_time_s : misses.time_s) = worst.time_s;
-      } catch (const Error& error) {
-        if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
-      }
-    }
-    return misses;
-  }
-
- private:
-  double metres() const { return scene_.units.length_km * 1000; }
-  /// Of a circle through the chief's start.
-  double mean_motion() const {
-    const Eigen::Vector3d chief(scene_.nominal.data());
-    return std::sqrt(canonical_mu / std::pow(chief.norm(), 3));
-  }
-
-  /// The size in position, and that times the mean motion of the chief's distance in velocity, each
-  /// in a random direction; the standard library's distributions differ between implementations.
-  State random_deviation(std::mt19937_64& generator, double amplitude_m) const {
-    State deviation;
-    for (const double size : {amplitude_m / metres(), amplitude_m / metres() * mean_motion()}) {
-      Eigen::Vector3d direction;
-      do {
-        for (double& x : direction) x = std::ldexp(static_cast<double>(generator() >> 11), -52) - 1;
-      } while (direction.norm() > 1 || direction.norm() < 0.1);
-      direction *= size / direction.norm();
-      deviation.insert(deviation.end(), direction.begin(), direction.end());
-    }
-    return deviation;
-  }
-
-  struct Miss {
-    double position_m = 0;
-    double time_s = 0;
-  };
-
-  Miss largest_miss(double amplitude_m, bool is_linear) const {
-    std::mt19937_64 generator(1);
-    Miss worst;
-    for (int k = 0; k < flown_deputies; ++k) {
-      const Miss one = miss(random_deviation(generator, amplitude_m), is_linear);
-      // A miss that is no number stays.
-      if (!(one.position_m <= worst.position_m)) worst.position_m = one.position_m;
-      if (!(one.time_s <= worst.time_s)) worst.time_s = one.time_s;
-    }
-    return worst;
-  }
-
-  Miss miss(const State& deviation, bool is_linear) const {
-    const State start = state_sum(scene_.nominal, deviation);
-    const double time = predicted(map_.time, deviation, is_linear);
-    // Beyond their reach polynomials give any time, up to one that would take days to fly.
-    const double chiefs = map_.time[0];
-    if (!(std::abs(time - chiefs) <= std::max(std::abs(chiefs), 1 / mean_motion()))) {
-      throw Error(ErrorKind::numerical, "event: the polynomials give no time near the chief's");
-    }
-    const State end = exact_flow(system_, start, scene_.start_time, time);
-    Eigen::Vector3d apart;
-    for (std::size_t i = 0; i < 3; ++i) {
-      apart[static_cast<Eigen::Index>(i)] = end[i] - predicted(map_.state[i], deviation, is_linear);
-    }
-    // The slope need only be right to a few digits.
-    const double later = std::ldexp(std::abs(map_.time[0]), -16);
-    const double value = value_at(condition_, end);
-    const State flown_on = exact_flow(system_, end, scene_.start_time + time, later);
-    const double slope = (value_at(condition_, flown_on) - value) / later;
-    return {apart.norm() * metres(), std::abs(value / slope) * scene_.units.time_s};
-  }
-
-  const Scene& scene_;
-  const EventCondition<double>& condition_;
-  const EventMap<double>& map_;
-  SharedSystem system_;
 };
 
 /// Rounding of a flown position, canonical: that of the linear flow over the chief's time, which is
@@ -333,14 +225,15 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);
-  EventStudy study{
-      scene,
-      event_map<double>(make_system(scene), chief, scene.start_time, *near, scene.order,
-                        scene_gauss(scene, most_event_tolerance), condition),
-      0,
-      flown_deputies,
-      {}};
-  const EventFlights flights(scene, condition, study.map);
+  const auto map_of_order = [&](int order) {
+    return event_map<double>(make_system(scene), chief, scene.start_time, *near, order,
+                             scene_gauss(scene, most_event_tolerance), condition);
+  };
+  EventStudy study{scene, map_of_order(scene.order), 0, 0, {}};
+  // What linear polynomials leave out is of the second degree.
+  const EventFlights flights(scene, condition, study.map,
+                             scene.order > 1 ? study.map : map_of_order(2));
+  study.flown = flights.count();
   const std::vector<double>& amplitudes = scene.event->amplitudes_m;
   for (std::size_t k = 0; k < amplitudes.size(); ++k) {
     if (progress) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../../algebra/raise_to.hpp"
+#include "../formation/charted_jet.hpp"
 #include "kept_tolerance.hpp"
 
 namespace hamjet {
@@ -71,8 +72,19 @@ std::string no_digits_warning(const RunResult& run) {
       worst - errors->begin(), *worst);
 }
 
+std::string charted_digits_warning(const Scene& scene, const RunResult& run) {
+  if (!run.charted) return "";
+  const std::vector<int> wrong = degrees_without_digits(scene, *run.charted).wrong;
+  if (wrong.empty()) return "";
+  return fmt::format(
+      "not one digit of degree {} of the polynomials in {} coordinates is right; a smaller "
+      "tolerance, a lower order or a shorter duration is needed",
+      wrong.front(), name_of(run.charted->coordinates));
+}
+
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run) {
   std::vector<std::string> warnings = {near_singular_warning(scene, run), no_digits_warning(run),
+                                       charted_digits_warning(scene, run),
                                        tolerance_warning(scene, run)};
   std::erase(warnings, "");
   return warnings;

@@ -18,6 +18,9 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run);
 /// check fails in this case.
 std::string no_digits_warning(const RunResult& run);
 
+/// The same of the run's polynomials in the scene's coordinates, by degrees_without_digits.
+std::string charted_digits_warning(const Scene& scene, const RunResult& run);
+
 /// All of these warnings and tolerance_warning.
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run);
 

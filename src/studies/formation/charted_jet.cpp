@@ -10,6 +10,7 @@
 #include "../../algebra/raise_to.hpp"
 #include "../../charts/coordinate_units.hpp"
 #include "../../integrators/momentum_unit.hpp"
+#include "../largest_coefficient.hpp"
 #include "../stopwatch.hpp"
 #include "deputy_flows.hpp"
 #include "hamjet/charts/flow_box.hpp"
@@ -129,6 +130,36 @@ void change_charts(const Scene& scene, const RunResult& run, ChartedJet& result)
 }
 
 }  // namespace
+
+bool DegreesWithoutDigits::has_rounding_alone(const SymplecticityDefect& defect) const {
+  // Degree k of the brackets has products of the slices a and b of k + 2 = a + b, from 1 to k + 1.
+  if (defect.degree == 0) return false;
+  for (int degree = 2; degree <= defect.degree + 1; ++degree) {
+    if (std::find(of_rounding.begin(), of_rounding.end(), degree) == of_rounding.end()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+DegreesWithoutDigits degrees_without_digits(const Scene& scene, const ChartedJet& charted) {
+  constexpr double nothing = 1e-9;
+  constexpr double roundings = 0x1p13;
+  DegreesWithoutDigits result;
+  if (!charted.section || !charted.failure.empty()) return result;
+  const FlowJet<Extended> jet = comparable_flow_box(scene, *charted.section, charted.jet);
+  const auto& errors = charted.error_estimate.by_degree;
+  const double linear = largest_coefficient(jet, 1);
+  for (int degree = 2; degree <= scene.order; ++degree) {
+    const double size = largest_coefficient(jet, degree);
+    const double error =
+        errors ? (*errors)[static_cast<std::size_t>(degree)] * size : roundings * rounding * linear;
+    if (error < size) continue;
+    const bool is_rounding = size == 0 || error <= nothing * linear;
+    (is_rounding ? result.of_rounding : result.wrong).push_back(degree);
+  }
+  return result;
+}
 
 std::optional<std::string> reason_without_charted_jet(const Scene& scene) {
   if (scene.coordinates == JetCoordinates::cartesian) return std::nullopt;

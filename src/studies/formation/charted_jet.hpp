@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hamjet/studies/propagation.hpp"
 
@@ -25,5 +26,23 @@ std::optional<std::string> reason_without_charted_jet(const Scene& scene);
 ///
 /// Precondition: reason_without_charted_jet has no value, and the coordinates are not Cartesian.
 ChartedJet charted_jet(const Scene& scene, const RunResult& run);
+
+/// Degrees of a flow box's polynomials that have no right digit, where its chart or rounding leaves
+/// nothing but rounding of them.
+struct DegreesWithoutDigits {
+  /// Those whose coefficients or errors are a thousand millionth of degree 1's at most, of a jet in
+  /// the chief's own units: on an ellipse of Kepler's problem degree 1 says all. What is relative
+  /// to such coefficients says nothing.
+  std::vector<int> of_rounding;
+  /// The others, which are wrong.
+  std::vector<int> wrong;
+
+  /// Whether the Poisson brackets of a degree consist of products with degrees of rounding alone.
+  bool has_rounding_alone(const SymplecticityDefect& defect) const;
+};
+
+/// The degrees from 2 on whose error estimate is at least their largest coefficient; where nothing
+/// was estimated, those whose coefficients are below 2^13 roundings of degree 1's.
+DegreesWithoutDigits degrees_without_digits(const Scene& scene, const ChartedJet& charted);
 
 }  // namespace hamjet

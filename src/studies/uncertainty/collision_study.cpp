@@ -300,7 +300,14 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
     if (progress) progress("closest approaches", 0);
     result.approaches.push_back(
         uncertain_approach(lower, approach, scene.uncertainty->seed, units));
-    result.approaches.back().spacecraft = both_at(lower, linear, approach.time, units);
+    UncertainApproach& told = result.approaches.back();
+    told.spacecraft = both_at(lower, linear, approach.time, units);
+    // Those of whole passages, which the conjunction data message tells of, may be outside.
+    told.is_in_window = told.time >= problem.from && told.time <= problem.to;
+    if (told.plane) {
+      told.is_cut = told.time_s - told.plane->passage < result.from_s ||
+                    told.time_s + told.plane->passage > result.to_s;
+    }
   }
   const UncertainApproach* const nearest = nearest_approach(result);
   const EncounterDeviation of_collisions = nearest

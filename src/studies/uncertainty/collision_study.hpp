@@ -25,6 +25,9 @@ struct ApproachingSpacecraft {
 struct UncertainApproach {
   double time = 0;  ///< in canonical units
   double time_s = 0;
+  /// Whether the time is in the window that was examined; otherwise it is in the whole of a passage
+  /// that an edge of this window cuts.
+  bool is_in_window = true;
   double distance_m = 0;  ///< distance of the means
   double speed_m_s = 0;
   double time_deviation_s = 0;  ///< standard deviation of its time, linear
@@ -41,8 +44,10 @@ struct UncertainApproach {
   bool holds(double radius_m) const {
     return flights > 0 && position_error_m < 0.1 * (distance_m > radius_m ? distance_m : radius_m);
   }
-  std::optional<ShortEncounter> plane;              ///< lengths in metres, times in seconds
-  std::string refusal;                              ///< reason why there is no plane
+  std::optional<ShortEncounter>
+      plane;            ///< of the whole passage; lengths in metres, times in seconds
+  std::string refusal;  ///< reason why there is no plane
+  bool is_cut = false;  ///< an edge of the window that was examined cuts the passage
   std::array<ApproachingSpacecraft, 2> spacecraft;  ///< the chief and the deputy
 };
 

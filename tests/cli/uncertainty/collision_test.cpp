@@ -313,6 +313,24 @@ TEST_F(Collision, WarnsOfAWindowThatCutsAPassage) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 254U) << line;
 }
 
+// The closest approach was 5 ms before the window, and is told beside it, as that of the passage
+// whose 3 deviations of 30.41 m and 10 m, at the root of 2 of 7.5 km/s, take 9.5 ms to each side.
+TEST_F(Collision, SaysThatAnApproachIsOutsideTheWindow) {
+  for (const auto& [late, is_in_window] : {std::pair{0.005, false}, {-0.005, true}}) {
+    write("scene.toml", passing(late, "window_s = [0, 60]\n"));
+    const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "-o", "out"}).out);
+    EXPECT_EQ(out.find(" s (outside the window): ") == std::string::npos, is_in_window) << out;
+    EXPECT_NE(out.find("straight while they pass, of the whole passage"), std::string::npos) << out;
+    const Json collision = read_json(directory_ / "out/summary.json")["collision"];
+    ASSERT_EQ(collision["approaches"].size(), 1U);
+    const Json& approach = collision["approaches"][0];
+    EXPECT_NEAR(approach["time_s"].get<double>(), -late, 1e-5);
+    EXPECT_EQ(approach["in_window"], is_in_window);
+    EXPECT_EQ(approach["short_encounter"]["cut_by_window"], true);
+    EXPECT_EQ(approach["short_encounter"]["holds"], true);
+  }
+}
+
 // A deputy that is uncertain by 100 km along a circle of 7000 km: (100 km)^2 / (2 * 7000 km) = 714
 // m beside 5 m across. 1 km bends by 7 cm, beside 10 m of the radius and 7 m across.
 TEST_F(Collision, WarnsOfDeviationsAlongTheTrackThatLeaveTheOrbit) {

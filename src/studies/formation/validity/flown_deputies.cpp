@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../../exact_flow.hpp"
+#include "../../random_direction.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
 
@@ -23,6 +24,15 @@ Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
     axes.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Vector6>(deviation.data());
   }
   return axes;
+}
+
+Vector6 random_coordinates(std::mt19937_64& generator) {
+  Vector6 coordinates;
+  for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+    const std::vector<double> direction = random_direction(generator, 3);
+    coordinates.segment<3>(first) = Eigen::Vector3d(direction.data());
+  }
+  return coordinates;
 }
 
 Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include "hamjet/charts/deputy_flow.hpp"
@@ -23,6 +24,9 @@ Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
 /// at the chief.
 Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,
                             const Matrix6& axes);
+
+/// Random unit coordinates, of position and of velocity.
+Vector6 random_coordinates(std::mt19937_64& generator);
 
 /// Deputies of one chief, flown to one time with the full equations, and their predictions by
 /// polynomials. A deputy is given by its coordinates along the columns of `axes`.

@@ -18,6 +18,11 @@ SliceMaxima::SliceMaxima(const DeputyFlow& flow, const Matrix6& axes)
   }
 }
 
+SliceMaxima::SliceMaxima(std::vector<Series<double>> positions, Matrix<double> variables)
+    : positions_(std::move(positions)),
+      variables_(std::move(variables)),
+      values_(positions_[0].space_pointer()) {}
+
 void SliceMaxima::set_point(const Vector6& coordinates) {
   const Matrix<double> point = variables_ * coordinates;
   values_.set_point({point.data(), static_cast<std::size_t>(point.size())});
@@ -57,7 +62,7 @@ Vector6 SliceMaxima::worst_from(Vector6 point, int degree) {
   return point;
 }
 
-std::vector<Vector6> SliceMaxima::maxima_and(const std::vector<Vector6>& samples, int degree) {
+std::vector<Vector6> SliceMaxima::maxima(const std::vector<Vector6>& samples, int degree) {
   // The results of two ascents to one maximum are no further apart.
   constexpr double same = 0.1;
   std::vector<std::pair<double, Vector6>> maxima;
@@ -70,9 +75,14 @@ std::vector<Vector6> SliceMaxima::maxima_and(const std::vector<Vector6>& samples
   }
   std::sort(maxima.begin(), maxima.end(),
             [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Vector6> deviations;
+  for (const auto& [contribution, deviation] : maxima) deviations.push_back(deviation);
+  return deviations;
+}
+
+std::vector<Vector6> SliceMaxima::maxima_and(const std::vector<Vector6>& samples, int degree) {
   // The worst deviations come first, because a deputy that misses by far ends the trial.
-  std::vector<Vector6> all;
-  for (const auto& [contribution, deviation] : maxima) all.push_back(deviation);
+  std::vector<Vector6> all = maxima(samples, degree);
   all.insert(all.end(), samples.begin(), samples.end());
   return all;
 }

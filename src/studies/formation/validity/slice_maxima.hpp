@@ -13,13 +13,18 @@ class SliceMaxima {
  public:
   /// Deputies are told by coordinates along the columns of `axes`, as in FlownDeputies.
   SliceMaxima(const DeputyFlow& flow, const Matrix6& axes);
+  /// The final position as polynomials of variables whose derivative by the coordinates is
+  /// `variables`.
+  SliceMaxima(std::vector<Series<double>> positions, Matrix<double> variables);
 
   /// Size of the contribution of one degree to the position of a deputy.
   double size(const Vector6& coordinates, int degree);
 
   /// The distinct deviations at which the contribution of one degree has a local maximum, as far as
-  /// ascents from the samples find them, the largest first; then the samples. All of the largest
-  /// samples may lie near a single maximum, while the flown error is larger at another one.
+  /// ascents from the samples find them, the largest first. All of the largest samples may lie near
+  /// a single maximum, while the flown error is larger at another one.
+  std::vector<Vector6> maxima(const std::vector<Vector6>& samples, int degree);
+  /// The same, and then the samples.
   std::vector<Vector6> maxima_and(const std::vector<Vector6>& samples, int degree);
 
  private:

@@ -8,7 +8,6 @@
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../checks/flight_checks.hpp"
 #include "../../formation_scale.hpp"
-#include "../../random_direction.hpp"
 #include "../../stopwatch.hpp"
 #include "../deputy_flows.hpp"
 #include "../formation_problem.hpp"
@@ -67,14 +66,7 @@ class ValidityStudy {
                            momentum_per_length(scene_));
     std::mt19937_64 generator(1);
     for (int k = 0; k < settings_.samples; ++k) {
-      Vector6 coordinates;
-      for (Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-        const auto direction = random_direction(generator, 3);
-        for (Eigen::Index i = 0; i < 3; ++i) {
-          coordinates[first + i] = direction[static_cast<std::size_t>(i)];
-        }
-      }
-      samples_.push_back(coordinates);
+      samples_.push_back(random_coordinates(generator));
     }
     // Polynomials in elements may be exact for every bound orbit. They fail only where a deputy
     // escapes or falls, which is found along the energy alone.
