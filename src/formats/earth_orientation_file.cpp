@@ -38,6 +38,7 @@ constexpr Field offset_y_a = {117, 125, offset_x_a.what, offset_x_a.most};
 constexpr Field offset_y_b = {176, 185, offset_x_a.what, offset_x_a.most};
 constexpr std::size_t flag_column = 58;  ///< I or P of UT1 - UTC in Bulletin A
 constexpr double mas_per_arcsec = 1000;
+constexpr int first_mjd = 36934;  ///< 1960-01-01
 
 class Line {
  public:
@@ -70,11 +71,11 @@ class Line {
 
   sys_days day() const {
     const auto mjd = number(mjd_field);
-    if (!mjd || *mjd < 0 || *mjd != std::floor(*mjd)) {
+    if (!mjd || *mjd < first_mjd || *mjd != std::floor(*mjd)) {
       fail(
           fmt::format("no day of the format finals2000A, got {} in columns 8 to 15, must be a "
-                      "modified Julian date, a whole number",
-                      in_quotes(columns(mjd_field.first, mjd_field.last))));
+                      "modified Julian date, a whole number from {} on, where UTC begins",
+                      in_quotes(columns(mjd_field.first, mjd_field.last)), first_mjd));
     }
     const sys_days day = sys_days(std::chrono::year(1858) / 11 / 17) + days(static_cast<int>(*mjd));
     const year_month_day date(day);

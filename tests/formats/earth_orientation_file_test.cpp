@@ -98,6 +98,9 @@ TEST(EarthOrientationFile, OtherTextIsRefusedWithItsLine) {
   row.ut1_a = std::string(row.ut1_a.size(), ' ');
   row.ut1_b = std::string(row.ut1_b.size(), ' ');
   refused(first + row.text(), {"finals:2: a day that lacks UT1 - UTC or polar motion"});
+  row = second;
+  row.date = "591231 36933.00";
+  refused(row.text(), {"finals:1: no day of the format finals2000A", "from 36934 on"});
   refused(second.text() + first, {"finals:2: days out of order, got 2010-07-18 after 2010-07-19"});
   refused(first, {"finals: no Earth orientation, got 1 days, must be two or more in succession"});
   refused("", {"finals: no Earth orientation, got 0 days"});

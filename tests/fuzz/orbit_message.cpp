@@ -26,7 +26,9 @@ void check(const io::OrbitEphemerisMessage& message) {
     }
   }
   const std::string text = io::oem_text(message);
-  require(io::oem_text(io::read_oem("again.oem", text)) == text, "written again it is another");
+  require(
+      io::oem_text(io::read_oem("again.oem", text, io::AcceptedFrames::terrestrial_too)) == text,
+      "written again it is another");
 }
 
 /// Doubts about numbers that are not used have the form of errors.
@@ -64,8 +66,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace hamjet;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const fuzz::Refusal refusal = {{ErrorKind::input_output}, {"orbit:"}};
-  fuzz::is_read([&] { fuzz::check(io::read_oem("orbit", text)); }, refusal);
-  fuzz::is_read([&] { fuzz::check(io::read_opm("orbit", text)); }, refusal);
+  fuzz::is_read(
+      [&] { fuzz::check(io::read_oem("orbit", text, io::AcceptedFrames::terrestrial_too)); },
+      refusal);
+  fuzz::is_read(
+      [&] { fuzz::check(io::read_opm("orbit", text, io::AcceptedFrames::terrestrial_too)); },
+      refusal);
   fuzz::is_read([&] { fuzz::check(io::read_cdm("orbit", text)); }, refusal);
   return 0;
 }

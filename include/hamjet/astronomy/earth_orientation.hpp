@@ -38,7 +38,7 @@ class EarthOrientation {
   };
 
   /// `name` is that of the file, for messages. Throws Error(input_output) without two days in
-  /// succession, and for days that do not ascend.
+  /// succession, and for days that do not ascend; Error(usage) for a day before 1960.
   EarthOrientation(std::string name, const std::vector<EarthOrientationDay>& days);
 
   /// The days from the last one that begins at `first` or before to the first one that begins at
