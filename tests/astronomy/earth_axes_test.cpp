@@ -18,8 +18,6 @@ using std::chrono::sys_days;
 using std::chrono::year;
 using State = Eigen::Matrix<double, 6, 1>;
 
-Instant instant(const char* utc) { return instant_of(parse_epoch(utc).value(), TimeSystem::utc); }
-
 /// UT1 - UTC = -0.4399619 s at the example's moment, and 1.5563 ms a day.
 std::shared_ptr<const EarthOrientation> table_of_example() {
   const double at = (7 * 3600 + 51 * 60 + 28.386009) / 86400;

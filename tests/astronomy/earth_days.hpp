@@ -21,4 +21,9 @@ std::shared_ptr<const EarthOrientation> table_of_days(std::chrono::sys_days firs
   return std::make_shared<EarthOrientation>("table", days);
 }
 
+/// The moment of a date in UTC.
+inline Instant instant(const char* utc) {
+  return instant_of(parse_epoch(utc).value(), TimeSystem::utc);
+}
+
 }  // namespace hamjet

@@ -24,8 +24,6 @@ std::string problem_of(const auto& call) {
   return "";
 }
 
-Instant instant(const char* utc) { return instant_of(parse_epoch(utc).value(), TimeSystem::utc); }
-
 TEST(EarthOrientation, ATableIsRefusedOutsideItsDates) {
   std::vector<EarthOrientationDay> rows;
   const sys_days first(year(2010) / 7 / 20);

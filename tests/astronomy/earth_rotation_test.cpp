@@ -24,8 +24,6 @@ namespace {
 using std::chrono::sys_days;
 using std::chrono::year;
 
-Instant instant(const char* utc) { return instant_of(parse_epoch(utc).value(), TimeSystem::utc); }
-
 template <class Real>
 std::vector<Real> expanded(const TimeFunction& function, const Real& t, int degree) {
   std::vector<Real> out(function.components() * static_cast<std::size_t>(degree + 1));
@@ -76,13 +74,13 @@ void matrix_of_erfa(const Instant& epoch, const Extended& seconds, double ut1_mi
                     double pole_x, double pole_y, double (&matrix)[3][3]) {
   const JulianDate date = julian_date(epoch.tt, TimeSystem::tt);
   const Extended since_midnight = seconds + Extended(epoch.tt.picoseconds) / 1e12;
-  const Extended days = since_midnight / 86400;
-  const Extended ut1 = (Extended(date.day) - 2451545) + days + Extended(ut1_minus_tt) / 86400;
+  const Extended day_count = since_midnight / 86400;
+  const Extended ut1 = (Extended(date.day) - 2451545) + day_count + Extended(ut1_minus_tt) / 86400;
   Extended angle = Extended("0.7790572732640") + Extended("1.00273781191135448") * ut1;
   angle = (angle - floor(angle)) * boost::math::constants::two_pi<Extended>();
   double intermediate[3][3], pole[3][3];
-  eraC2i06a(date.day, convert<double>(days), intermediate);
-  eraPom00(pole_x, pole_y, eraSp00(date.day, convert<double>(days)), pole);
+  eraC2i06a(date.day, convert<double>(day_count), intermediate);
+  eraPom00(pole_x, pole_y, eraSp00(date.day, convert<double>(day_count)), pole);
   eraC2tcio(intermediate, convert<double>(angle), pole, matrix);
 }
 
@@ -100,12 +98,12 @@ TEST(EarthRotation, AgreesWithErfaAlongTheSpan) {
     for (int i = 0; i <= 500; ++i) {
       const double t = span * i / 500;
       const Extended seconds = Extended(t) * unit_s;
-      const double days = convert<double>(seconds) / 86400 + 6 + 20.0 / 24;
-      const double ut1_minus_utc = has_table ? -0.03 - 1e-3 * days : 0;
+      const double day_count = convert<double>(seconds) / 86400 + 6 + 20.0 / 24;
+      const double ut1_minus_utc = has_table ? -0.03 - 1e-3 * day_count : 0;
       double expected[3][3];
       matrix_of_erfa(epoch, seconds, ut1_minus_utc - 37 - 32.184,
-                     has_table ? (0.1 + 2e-3 * days) * ERFA_DAS2R : 0,
-                     has_table ? (0.4 - 1e-3 * days) * ERFA_DAS2R : 0, expected);
+                     has_table ? (0.1 + 2e-3 * day_count) * ERFA_DAS2R : 0,
+                     has_table ? (0.4 - 1e-3 * day_count) * ERFA_DAS2R : 0, expected);
       const std::vector<double> matrix = expanded(rotation, t, 0);
       largest = std::max(largest, largest_difference(matrix, expected));
       if (i % 50 != 0) continue;
@@ -187,9 +185,9 @@ TEST(EarthRotation, LeapSecondsDoNotTurnTheEarth) {
   const Instant epoch = instant("2016-12-31T12:00:00");
   const EarthRotation rotation(epoch, 1, 0, 86400, table);
   for (const double t : {0.0, 43199.5, 43200.5, 43201.5, 80000.0}) {
-    const double days = 5.5 + (t < 43200 ? t / 86400 : (t - 1) / 86400);
+    const double day_count = 5.5 + (t < 43200 ? t / 86400 : (t - 1) / 86400);
     double expected[3][3];
-    matrix_of_erfa(epoch, t, -36.4 - 1.1e-3 * days - 32.184, 0, 0, expected);
+    matrix_of_erfa(epoch, t, -36.4 - 1.1e-3 * day_count - 32.184, 0, 0, expected);
     // The interpolation is linear in TT, not in UTC: 1e-5 of a day differs by 13 ns of UT1.
     EXPECT_LT(largest_difference(expanded(rotation, t, 0), expected), 2e-12) << t;
   }

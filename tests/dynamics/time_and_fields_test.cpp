@@ -28,7 +28,7 @@ template <class T, class Real = T>
 std::vector<Series<T>> on_series(const OperationList& list, const std::vector<Series<T>>& inputs,
                                  const Real& time) {
   const SpacePointer& space = inputs[0].space_pointer();
-  SliceEvaluator<T, Real> evaluator(list, space, space->order());
+  SliceEvaluator<T, Real> evaluator(list, space, space->jet_order());
   evaluator.set_time(T(time));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     std::copy(inputs[i].coefficients().begin(), inputs[i].coefficients().end(), evaluator.input(i));
@@ -47,9 +47,9 @@ template <class Real>
 std::vector<Series<Real>> by_slices(const OperationList& list,
                                     const std::vector<Series<Real>>& inputs, const Real& time) {
   const SpacePointer& space = inputs[0].space_pointer();
-  SliceEvaluator<Real, Real> evaluator(list, space, space->order());
+  SliceEvaluator<Real, Real> evaluator(list, space, space->jet_order());
   evaluator.set_time(time);
-  for (int d = 0; d <= space->order(); ++d) {
+  for (int d = 0; d <= space->jet_order(); ++d) {
     if (d > 0) evaluator.evaluate_remainder(d);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
@@ -75,7 +75,7 @@ void expect_equal_series(const std::vector<Series<Real>>& values,
                          const std::vector<Series<Real>>& expected, double roundings) {
   ASSERT_EQ(values.size(), expected.size());
   const SeriesSpace& space = expected[0].space();
-  for (int d = 0; d <= space.order(); ++d) {
+  for (int d = 0; d <= space.jet_order(); ++d) {
     double scale = 0;
     double error = 0;
     for (std::size_t o = 0; o < values.size(); ++o) {
@@ -163,15 +163,15 @@ TEST(TimeInLists, IsNotAThingAtAllUntilItIsSet) {
 }
 
 template <class Real>
-void expect_fields_as_recorded(int order, double time) {
+void expect_fields_as_recorded(int jet_order, double time) {
   const test::MovingFields fields;
   const OperationList with_objects = fields.with_objects().vector_field;
   const OperationList recorded = fields.recorded().vector_field;
-  const auto space = SeriesSpace::create(3, order);
+  const auto space = SeriesSpace::create(3, jet_order);
   const auto state = sample_state<Real>(space, {0.9, 0.5, -0.6, 0.1, 0.2, 0.3}, 5);
   const auto expected = on_series<Real>(recorded, state, Real(time));
-  // Within an order the two arrangements differ by some hundred roundings of terms that are larger
-  // than their sum.
+  // Within an order the two arrangements differ by some hundred roundings of terms that are
+  // larger than their sum.
   expect_equal_series(on_series<Real>(with_objects, state, Real(time)), expected, 1e4);
   expect_equal_series(by_slices<Real>(with_objects, state, Real(time)), expected, 1e4);
 }
@@ -179,20 +179,20 @@ void expect_fields_as_recorded(int order, double time) {
 // The field of objects is that of the same potential with ordinary operations, whose derivatives
 // are those of another algorithm.
 TEST(FieldsInLists, AreThoseOfOrdinaryOperations) {
-  for (int order = 1; order <= 6; ++order) {
-    SCOPED_TRACE(order);
-    expect_fields_as_recorded<double>(order, 0.8);
+  for (int jet_order = 1; jet_order <= 6; ++jet_order) {
+    SCOPED_TRACE(jet_order);
+    expect_fields_as_recorded<double>(jet_order, 0.8);
   }
   expect_fields_as_recorded<Extended>(4, -1.3);
 }
 
 // Each lane has a position and a time of its own, and none depends on another one.
 TEST(FieldsInLists, HaveLanesOfTheirOwn) {
-  constexpr int order = 3;
+  constexpr int jet_order = 3;
   const OperationList list = test::MovingFields().with_objects().vector_field;
-  const auto space = SeriesSpace::create(3, order);
+  const auto space = SeriesSpace::create(3, jet_order);
   using P = Pack<double, 4>;
-  SliceEvaluator<P, double> together(list, space, order);
+  SliceEvaluator<P, double> together(list, space, jet_order);
   P times;
   std::vector<std::vector<Series<double>>> states;
   for (int lane = 0; lane < 4; ++lane) {
@@ -223,8 +223,8 @@ TEST(FieldsInLists, HaveLanesOfTheirOwn) {
 // All forces share the products of the deviations: in three variables those are 6 + 10 + 15
 // monomials at order 4, whatever the number of bodies.
 TEST(FieldsInLists, ShareTheirProducts) {
-  const auto products = [](const OperationList& list, int order) {
-    const OperationList expanded = expand_fields(list, order);
+  const auto products = [](const OperationList& list, int jet_order) {
+    const OperationList expanded = expand_fields(list, jet_order);
     return std::count_if(
         expanded.operations().begin(), expanded.operations().end(),
         [](const Operation& o) { return o.code == OperationCode::deviation_product; });
@@ -251,7 +251,7 @@ TEST(FieldsInLists, ShareTheirProducts) {
 // here a field in two of three coordinates whose third is a constant.
 TEST(FieldsInLists, TakeConstantsForCoordinates) {
   const auto field =
-      std::make_shared<const test::PointMasses>(std::vector<test::PointMass>{{1, {0, 0, 0.5}}});
+      std::make_shared<const test::PointMasses>(std::vector<test::PointMass>(1, {1, {0, 0, 0.5}}));
   const DynamicalSystem plane = make_system("plane", 2, [&](auto q, auto p) {
     return (square(p[0]) + square(p[1])) / 2 + field_value(field, {q[0], q[1], Expression(0.25)});
   });

@@ -163,7 +163,7 @@ constexpr double centre_distance = 0.3;
 DynamicalSystem moving_kepler(bool has_objects) {
   const auto centre = std::make_shared<const test::Turning>(centre_rate, 0.2, centre_distance);
   const auto field =
-      std::make_shared<const test::PointMasses>(std::vector<test::PointMass>{{1, {0, 0, 0}}});
+      std::make_shared<const test::PointMasses>(std::vector<test::PointMass>(1, {1, {0, 0, 0}}));
   return make_system("moving Kepler", 3, [&](auto q, auto p, const Expression& t) {
     std::vector<Expression> a = {centre_distance * cos(centre_rate * t + 0.2),
                                  centre_distance * sin(centre_rate * t + 0.2)};
