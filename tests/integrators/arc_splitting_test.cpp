@@ -213,8 +213,8 @@ TEST(ArcSplitting, OfOtherSystems) {
   }
 }
 
-/// At every degree the error against double-double numbers is at most ten times the unsplit run's own
-/// error, or that of rounding alone.
+/// At every degree the error against double-double numbers is at most ten times the unsplit run's
+/// own error, or that of rounding alone.
 void expect_loses_nothing(const Flow<double>& flow, const std::vector<std::size_t>& numbers) {
   const auto problem = test::problem_of(flow);
   const GaussSettings settings = adaptive(8, 1e-13);

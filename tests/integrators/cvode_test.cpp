@@ -233,7 +233,7 @@ TEST(CoefficientBlockSolver, SolvesTheDenseSystem) {
   for (std::size_t i = 0; i < n; ++i) b[i] = std::sin(1.0 + static_cast<double>(3 * i));
 
   CoefficientBlockSolver solver(problem);
-  ASSERT_TRUE(solver.evaluate(state.data()));
+  ASSERT_TRUE(solver.evaluate(state.data(), 0));
   for (const double gamma : {0.01, 0.3, -0.7}) {
     ASSERT_TRUE(solver.factorise(gamma));
     std::vector<double> x = b;
@@ -259,13 +259,13 @@ TEST(CoefficientBlockSolver, ReportsSingularAndNotFiniteMatrices) {
                                        {1, 0}, ClockTime::epoch(),        1};
   CoefficientBlockSolver solver(oscillator);
   const std::vector<double> state(6, 1.0);
-  ASSERT_TRUE(solver.evaluate(state.data()));
+  ASSERT_TRUE(solver.evaluate(state.data(), 0));
   EXPECT_TRUE(solver.factorise(1));
   EXPECT_FALSE(solver.factorise(std::numeric_limits<double>::infinity()));
 
   const DynamicalSystem gravity = kepler();
   CoefficientBlockSolver at_centre(test::orbit_problem(gravity, 1, 1));
-  EXPECT_FALSE(at_centre.evaluate(std::vector<double>(42, 0.0).data()));
+  EXPECT_FALSE(at_centre.evaluate(std::vector<double>(42, 0.0).data(), 0));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class OneStep {
     const std::size_t n = state_.size() / 2;
     const auto state = [this](std::size_t i, std::size_t k) { return state_[i][k]; };
     IntegrationStatistics statistics;
-    stages_.system().set_step(h_);
+    stages_.begin_step(0.0, h_);
     EXPECT_TRUE(
         stages_.solve_constant_terms([&](std::size_t i) { return state(i, 0); }, statistics));
     EXPECT_TRUE(stages_.factorise(Response::formed));

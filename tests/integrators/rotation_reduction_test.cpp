@@ -101,7 +101,8 @@ TEST(RotationReduction, IsTheSameNumericalMap) {
         const auto whole = with(FlowSymmetry::none, problem, method);
         const auto reduced = with(FlowSymmetry::rotation, problem, method);
         for (int d = 0; d <= 4; ++d) {
-          // The bound is 113 bits and a factor of a thousand for the terms of the steps that cancel.
+          // The bound is 113 bits and a factor of a thousand for the terms of the steps that
+          // cancel.
           EXPECT_LE(test::relative_error(reduced, whole, d), 1e3 * 0x1p-112) << d;
         }
       }

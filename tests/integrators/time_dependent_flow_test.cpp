@@ -28,7 +28,7 @@ namespace {
 using Problem = FlowProblem<double>;
 
 /// A method with a number that says how fine its steps are, 1 or 2.
-struct Method {
+struct TimedMethod {
   std::string name;
   double tolerance;    ///< largest relative error of a degree on the flows below
   double least_ratio;  ///< of the errors with steps of which the second are half as long; 0 for
@@ -37,8 +37,8 @@ struct Method {
 };
 
 /// Every method that takes systems with time.
-std::vector<Method> methods() {
-  std::vector<Method> result;
+std::vector<TimedMethod> methods() {
+  std::vector<TimedMethod> result;
   const auto add = [&](const std::string& name, double tolerance, double ratio, auto integrate) {
     result.push_back({name, tolerance, ratio, [=](const Problem& problem, int fineness) {
                         IntegrationStatistics statistics;
@@ -104,7 +104,7 @@ double largest_error(const FlowJet<Real>& jet, const FlowJet<Extended>& exact) {
 }
 
 void expect_right(const test::Flow<double>& flow, const FlowJet<Extended>& exact) {
-  for (const Method& method : methods()) {
+  for (const TimedMethod& method : methods()) {
     const Problem problem = test::problem_of(flow);
     const double error = largest_error(method.integrate(problem, 1), exact);
     EXPECT_LE(error, method.tolerance) << method.name;
@@ -209,9 +209,9 @@ MovingOrbit<Real> moving_orbit(bool has_objects, double duration, int order) {
   MovingOrbit<Real> result{
       {moving_kepler(has_objects), {}, Real(duration), order, {}, ClockTime(start_time)},
       test::reference_jet(still, test::adaptive(14, 1e-24))};
-  std::vector<Extended> start(orbit_start.begin(), orbit_start.end());
-  add_centre<Extended>(start, Extended(start_time));
-  for (const Extended& x : start) result.flow.start.push_back(convert<Real>(x));
+  std::vector<Extended> beginning(orbit_start.begin(), orbit_start.end());
+  add_centre<Extended>(beginning, Extended(start_time));
+  for (const Extended& x : beginning) result.flow.start.push_back(convert<Real>(x));
   std::vector<Extended> end = test::final_state(result.exact);
   add_centre<Extended>(end, Extended(start_time) + Extended(duration));
   for (std::size_t i = 0; i < 6; ++i) result.exact[i][0] = end[i];
@@ -306,14 +306,14 @@ TEST(TimeDependentFlow, WithObjectsIsThatOfOrdinaryOperations) {
 TEST(TimeDependentFlow, OfARotatingFieldKeepsJacobisIntegral) {
   const test::MovingFields fields;
   const double duration = 8;
-  const std::vector<double> start = {1.2, 0.1, 0.2, -0.1, 0.8, 0.4};
-  const test::Flow<double> rotating{fields.in_rotating_axes(), start, duration, 3, {}};
+  const std::vector<double> beginning = {1.2, 0.1, 0.2, -0.1, 0.8, 0.4};
+  const test::Flow<double> rotating{fields.in_rotating_axes(), beginning, duration, 3, {}};
   const auto expected = test::run_gauss(rotating);
   const DynamicalSystem system =
       with_uniform_rotation(fields.turning_body(), {{{0, 1}}, fields.rate});
-  const test::Flow<double> flow{system, start, duration, 3, {}};
+  const test::Flow<double> flow{system, beginning, duration, 3, {}};
   const auto jet = test::run_gauss(flow);
-  // At the start the axes agree, at the end they differ by the angle of the rotation.
+  // At the beginning the axes agree, at the end they differ by the angle of the rotation.
   const Extended angle = Extended(fields.rate) * duration;
   FlowJet<Extended> turned = convert_map<Extended>(expected);
   for (const std::size_t i : {0, 3}) {
@@ -323,14 +323,14 @@ TEST(TimeDependentFlow, OfARotatingFieldKeepsJacobisIntegral) {
   }
   EXPECT_LE(largest_error(jet, turned), 1e-11);
   DifferentiableFunction<double> integral(*conserved_list(system));
-  integral.evaluate(start, 0.0);
+  integral.evaluate(beginning, 0.0);
   const double at_start = integral.value(0);
-  EXPECT_NEAR(at_start, test::energy(fields.in_rotating_axes(), start), 1e-15);
+  EXPECT_NEAR(at_start, test::energy(fields.in_rotating_axes(), beginning), 1e-15);
   integral.evaluate(test::final_state(jet), duration);
   EXPECT_NEAR(integral.value(0), at_start, 1e-13);
   // The energy itself is not kept.
   DifferentiableFunction<double> energy(system.hamiltonian);
-  energy.evaluate(start, 0.0);
+  energy.evaluate(beginning, 0.0);
   const double energy_at_start = energy.value(0);
   energy.evaluate(test::final_state(jet), duration);
   EXPECT_GT(std::abs(energy.value(0) - energy_at_start), 1e-4);
@@ -340,7 +340,7 @@ TEST(TimeDependentFlow, IsSymplecticToRounding) {
   const test::MovingFields fields;
   const test::Flow<double> flow{fields.with_objects(), {1.2, 0.1, 0.2, -0.1, 0.8, 0.4}, 3.0, 5, {},
                                 ClockTime(2.0)};
-  for (const Method& method : methods()) {
+  for (const TimedMethod& method : methods()) {
     const bool is_symplectic = method.name.find("Gauss") == 0 || method.name == "midpoint" ||
                                method.name == "Stoermer" || method.name == "composition" ||
                                method.name == "velocity Verlet";
@@ -404,10 +404,10 @@ TEST(TimeDependentFlow, IsRefusedByMethodsThatConserveEnergy) {
 // The energy that changes with the time is no failure, and a collision still is one.
 TEST(TimeDependentFlow, OfACollisionIsRefused) {
   test::Flow<double> flow{moving_kepler(true), {1, 0, 0, 0, 0, 0}, 3.0, 1, {}, ClockTime(-0.4)};
-  std::vector<double> start = {1, 0, 0, 0, 0, 0};
-  add_centre(start, -0.4);
-  flow.start = start;
-  for (const Method& method : methods()) {
+  std::vector<double> beginning = {1, 0, 0, 0, 0, 0};
+  add_centre(beginning, -0.4);
+  flow.start = beginning;
+  for (const TimedMethod& method : methods()) {
     if (method.name != "Fehlberg" && method.name != "Gauss" && method.name != "Adams") continue;
     EXPECT_THROW(method.integrate(test::problem_of(flow), 1), Error) << method.name;
   }
