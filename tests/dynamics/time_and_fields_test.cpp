@@ -28,7 +28,7 @@ template <class T, class Real = T>
 std::vector<Series<T>> on_series(const OperationList& list, const std::vector<Series<T>>& inputs,
                                  const Real& time) {
   const SpacePointer& space = inputs[0].space_pointer();
-  SliceEvaluator<T, Real> evaluator(list, space, space->jet_order());
+  SliceEvaluator<T, Real> evaluator(list, space, space->order());
   evaluator.set_time(T(time));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     std::copy(inputs[i].coefficients().begin(), inputs[i].coefficients().end(), evaluator.input(i));
@@ -47,9 +47,9 @@ template <class Real>
 std::vector<Series<Real>> by_slices(const OperationList& list,
                                     const std::vector<Series<Real>>& inputs, const Real& time) {
   const SpacePointer& space = inputs[0].space_pointer();
-  SliceEvaluator<Real, Real> evaluator(list, space, space->jet_order());
+  SliceEvaluator<Real, Real> evaluator(list, space, space->order());
   evaluator.set_time(time);
-  for (int d = 0; d <= space->jet_order(); ++d) {
+  for (int d = 0; d <= space->order(); ++d) {
     if (d > 0) evaluator.evaluate_remainder(d);
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       for (std::size_t k = space->first(d); k < space->first(d + 1); ++k) {
@@ -75,7 +75,7 @@ void expect_equal_series(const std::vector<Series<Real>>& values,
                          const std::vector<Series<Real>>& expected, double roundings) {
   ASSERT_EQ(values.size(), expected.size());
   const SeriesSpace& space = expected[0].space();
-  for (int d = 0; d <= space.jet_order(); ++d) {
+  for (int d = 0; d <= space.order(); ++d) {
     double scale = 0;
     double error = 0;
     for (std::size_t o = 0; o < values.size(); ++o) {

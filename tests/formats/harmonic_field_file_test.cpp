@@ -39,13 +39,13 @@ HarmonicField parsed(const std::string& text, const HarmonicChoice& choice = {3,
   return parse_harmonic_field("field.gfc", text, choice);
 }
 
-std::string changed_field(const std::string& from, const std::string& to) {
+std::string changed_harmonics(const std::string& from, const std::string& to) {
   return changed(small, from, to);
 }
 
-void expect_refused(const std::string& text, const std::string& words,
-                    const HarmonicChoice& choice = {3, 3},
-                    ErrorKind kind = ErrorKind::input_output) {
+void expect_harmonics_refused(const std::string& text, const std::string& words,
+                              const HarmonicChoice& choice = {3, 3},
+                              ErrorKind kind = ErrorKind::input_output) {
   SCOPED_TRACE(words);
   try {
     parsed(text, choice);
@@ -70,14 +70,14 @@ TEST(HarmonicFieldFile, TheShippedFieldIsThatOfEGM96) {
   const SphericalHarmonicCoefficients& c = field.coefficients;
   EXPECT_EQ(c.C(2, 2), 0.243914352398e-05);
   EXPECT_EQ(c.S(2, 2), -0.140016683654e-05);
-  struct Row {
+  struct Expected {
     int n, m;
     double C, S;
   };
-  for (const Row& row : {Row{3, 3, 0.721321757121568e-6, 0.141434926192941e-5},
-                         Row{8, 5, -0.257011477267991e-7, 0.892034891745881e-7},
-                         Row{15, 7, 0.596540954755518e-7, 0.507394600032322e-8},
-                         Row{20, 20, 0.373507214738094e-8, -0.126949126479726e-7}}) {
+  for (const Expected& row : {Expected{3, 3, 0.721321757121568e-6, 0.141434926192941e-5},
+                              Expected{8, 5, -0.257011477267991e-7, 0.892034891745881e-7},
+                              Expected{15, 7, 0.596540954755518e-7, 0.507394600032322e-8},
+                              Expected{20, 20, 0.373507214738094e-8, -0.126949126479726e-7}}) {
     EXPECT_NEAR(c.C(row.n, row.m), row.C, 1e-9) << row.n;
     EXPECT_NEAR(c.S(row.n, row.m), row.S, 1e-9) << row.n;
   }
@@ -100,13 +100,14 @@ TEST(HarmonicFieldFile, TakesDegreeAndOrderThatAreAskedFor) {
   EXPECT_EQ(parsed(small, {2, 2}).coefficients.S(2, 1), 0.14e-8);
   // What stands beside C(n,0) has no meaning.
   EXPECT_EQ(
-      parsed(changed_field("gfc 2 0 -0.484e-3 0", "gfc 2 0 -0.484e-3 7")).coefficients.S(2, 0), 0);
+      parsed(changed_harmonics("gfc 2 0 -0.484e-3 0", "gfc 2 0 -0.484e-3 7")).coefficients.S(2, 0),
+      0);
 }
 
 // N^2 = (2 - delta) (2n + 1) (n - m)! / (n + m)!: 5, 5/12, 7/360.
 TEST(HarmonicFieldFile, DividesByTheNormWhatIsNotNormalised) {
   const HarmonicField field =
-      parsed(changed_field("tide_system", "norm unnormalized\ntide_system"));
+      parsed(changed_harmonics("tide_system", "norm unnormalized\ntide_system"));
   EXPECT_DOUBLE_EQ(field.coefficients.C(2, 0), -0.484e-3 / std::sqrt(5.0));
   EXPECT_DOUBLE_EQ(field.coefficients.S(2, 2), -0.14e-5 / std::sqrt(5.0 / 12));
   EXPECT_DOUBLE_EQ(field.coefficients.C(3, 3), 0.7e-6 / std::sqrt(7.0 / 360));
@@ -127,7 +128,7 @@ TEST(HarmonicFieldFile, ConvertsThePermanentTide) {
   EXPECT_EQ(zero.added_to_C20, permanent_tide_C20);
   EXPECT_NEAR(zero.coefficients.C(2, 0), -0.484e-3 - 4.2006e-9, 1e-13);
   EXPECT_EQ(zero.coefficients.C(3, 0), 0.9e-6);
-  const std::string other = changed_field("tide_free", "zero_tide");
+  const std::string other = changed_harmonics("tide_free", "zero_tide");
   EXPECT_NEAR(parsed(other, to(TideSystem::tide_free)).coefficients.C(2, 0), -0.484e-3 + 4.2006e-9,
               1e-13);
   EXPECT_EQ(parsed(other, to(TideSystem::zero_tide)).coefficients.C(2, 0), -0.484e-3);
@@ -138,19 +139,20 @@ TEST(HarmonicFieldFile, ATideSystemMustBeSaid) {
   HarmonicChoice said{3, 3};
   said.tide_system_of_file = TideSystem::zero_tide;
   for (const char* word : {"mean_tide", "unknown", "zero"}) {
-    const std::string text = changed_field("tide_free", word);
-    expect_refused(
+    const std::string text = changed_harmonics("tide_free", word);
+    expect_harmonics_refused(
         text, fmt::format("field.gfc:6: tide_system: must be tide_free or zero_tide, or it must "
                           "be said which of them the file is, got \"{}\"",
                           word));
     EXPECT_EQ(parsed(text, said).tide, TideSystem::zero_tide);
   }
-  expect_refused(changed_field("tide_system tide_free\n", ""),
-                 "field.gfc:6: tide_system: must be tide_free or zero_tide");
-  expect_refused(small,
-                 "field.gfc:6: tide_system: the file is tide_free, must not be said to be "
-                 "zero_tide",
-                 said);
+  expect_harmonics_refused(changed_harmonics("tide_system tide_free\n", ""),
+                           "field.gfc:6: tide_system: must be tide_free or zero_tide");
+  expect_harmonics_refused(
+      small,
+      "field.gfc:6: tide_system: the file is tide_free, must not be said to be "
+      "zero_tide",
+      said);
 }
 
 TEST(HarmonicFieldFile, TellsWhereTheCentreOfMassIs) {
@@ -170,9 +172,9 @@ TEST(HarmonicFieldFile, TellsWhereTheCentreOfMassIs) {
 }
 
 TEST(HarmonicFieldFile, SinesVaryWithTimeToo) {
-  const std::string text = changed_field("gfc 3 1 0.2e-5 0.25e-6",
-                                         "gfct 3 1 0.2e-5 0.25e-6 20050101\ntrnd 3 1 1e-9 2e-9");
-  expect_refused(text, "field.gfc:13: gfct: C(3,1) varies with time");
+  const std::string text = changed_harmonics(
+      "gfc 3 1 0.2e-5 0.25e-6", "gfct 3 1 0.2e-5 0.25e-6 20050101\ntrnd 3 1 1e-9 2e-9");
+  expect_harmonics_refused(text, "field.gfc:13: gfct: C(3,1) varies with time");
   HarmonicChoice choice{3, 3};
   choice.epoch = [] { return parse_epoch("2007-01-01T12:00:00"); };  // two Julian years later
   const HarmonicField field = parsed(text, choice);
@@ -182,22 +184,22 @@ TEST(HarmonicFieldFile, SinesVaryWithTimeToo) {
 }
 
 TEST(HarmonicFieldFile, RefusesWhatIsMissingOrDamaged) {
-  expect_refused(small,
-                 "field.gfc:15: the file ends without C(4,0), which is asked for; its "
-                 "max_degree is 3",
-                 {4, 0});
-  expect_refused(changed_field("gfc 3 2 0.9e-6 -0.6e-6\n", ""),
-                 "field.gfc:14: the file ends without C(3,2)");
-  EXPECT_NO_THROW(parsed(changed_field("gfc 3 2 0.9e-6 -0.6e-6\n", ""), {3, 1}));
-  expect_refused(changed_field("-0.14e-5", "-0.14f-5"),
-                 "field.gfc:11: S(2,2): must be a finite number, got \"-0.14f-5\"");
-  expect_refused(changed_field("-0.14e-5", "-1.4"),
-                 "field.gfc:11: S(2,2): out of range, got -1.4, must be from -1 to 1");
-  expect_refused(std::string(small) + "gfc 2 2 0 0\n",
-                 "field.gfc:16: C(2,2) is there twice, first in line 11");
+  expect_harmonics_refused(small,
+                           "field.gfc:15: the file ends without C(4,0), which is asked for; its "
+                           "max_degree is 3",
+                           {4, 0});
+  expect_harmonics_refused(changed_harmonics("gfc 3 2 0.9e-6 -0.6e-6\n", ""),
+                           "field.gfc:14: the file ends without C(3,2)");
+  EXPECT_NO_THROW(parsed(changed_harmonics("gfc 3 2 0.9e-6 -0.6e-6\n", ""), {3, 1}));
+  expect_harmonics_refused(changed_harmonics("-0.14e-5", "-0.14f-5"),
+                           "field.gfc:11: S(2,2): must be a finite number, got \"-0.14f-5\"");
+  expect_harmonics_refused(changed_harmonics("-0.14e-5", "-1.4"),
+                           "field.gfc:11: S(2,2): out of range, got -1.4, must be from -1 to 1");
+  expect_harmonics_refused(std::string(small) + "gfc 2 2 0 0\n",
+                           "field.gfc:16: C(2,2) is there twice, first in line 11");
   for (const HarmonicChoice& choice :
        {HarmonicChoice{1, 1}, HarmonicChoice{3, 4}, HarmonicChoice{3, -1}}) {
-    expect_refused(small, "degree of a gravity field", choice, ErrorKind::usage);
+    expect_harmonics_refused(small, "degree of a gravity field", choice, ErrorKind::usage);
   }
 }
 

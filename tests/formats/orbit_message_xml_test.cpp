@@ -27,6 +27,13 @@ class OrbitMessageXml : public testing::Test {
   }
 };
 
+const auto oem_of = [](const std::string& name, const std::string& text) {
+  return read_oem(name, text);
+};
+const auto opm_of = [](const std::string& name, const std::string& text) {
+  return read_opm(name, text);
+};
+
 /// The changed text must be refused with these words.
 template <class Read>
 void expect_refused(const Read& read, const std::string& text, const std::string& words) {
@@ -45,8 +52,7 @@ TEST(OrbitMessageNotation, XmlIsReadOrRefusedWithItsOption) {
   if (is_xml_built()) {
     EXPECT_EQ(read_oem("a.xml", standard_oem_xml).segments.size(), 2U);
   } else {
-    expect_refused(read_oem, standard_oem_xml,
-                   "a.xml:1: XML notation, got \"<\" at the start, must");
+    expect_refused(oem_of, standard_oem_xml, "a.xml:1: XML notation, got \"<\" at the start, must");
   }
 }
 
@@ -65,11 +71,11 @@ TEST_F(OrbitMessageXml, OfACombinedMessageTheKindThatIsWantedIsRead) {
   EXPECT_EQ(oem_text(read_oem("a.xml", combined(oem))), oem_text(one));
   ASSERT_EQ(two.segments.size(), 2 * one.segments.size());
   EXPECT_EQ(two.segments[2].states.size(), one.segments[0].states.size());
-  expect_refused(read_oem, combined(opm), "a.xml:2: ndm: got no oem in it, must have one");
-  expect_refused(read_opm, combined(opm + opm), "opm: got a second opm, must be one state");
-  expect_refused(read_oem, combined(oem + changed(oem, "version=\"", "version=\"1")),
+  expect_refused(oem_of, combined(opm), "a.xml:2: ndm: got no oem in it, must have one");
+  expect_refused(opm_of, combined(opm + opm), "opm: got a second opm, must be one state");
+  expect_refused(oem_of, combined(oem + changed(oem, "version=\"", "version=\"1")),
                  "oem: another version than the first one, got CCSDS_OEM_VERS = 1");
-  expect_refused(read_oem, combined("<eom/>"), "eom: unknown element in ndm, did you mean oem?");
+  expect_refused(oem_of, combined("<eom/>"), "eom: unknown element in ndm, did you mean oem?");
 }
 
 // A message written in XML is the same as in KVN, to the last digit, and marks of XML in texts are
@@ -130,7 +136,7 @@ TEST_F(OrbitMessageXml, TheStandardsParametersSayTheSameInBothNotations) {
 
 TEST_F(OrbitMessageXml, ParametersAreRefusedByLineAndElement) {
   const auto refuse = [](const char* from, const char* to, const std::string& words) {
-    expect_refused(read_opm, changed(standard_opm_xml, from, to), words);
+    expect_refused(opm_of, changed(standard_opm_xml, from, to), words);
   };
   refuse("X units=\"km\"", "X units=\"m\"", "a.xml:19: X: wrong unit, got \"m\", must be \"km\"");
   refuse("GM units=\"km**3/s**2\"", "GM units=\"m**3/s**2\"",
@@ -160,20 +166,20 @@ TEST_F(OrbitMessageXml, ParametersAreRefusedByLineAndElement) {
   refuse("</segment>", "</segment><segment/>", "a.xml:7: body: got 2 segments, must have one");
   refuse("<data>", "<data><x/>", "a.xml:16: x: unknown element in data, must be one of: stateV");
   refuse("</opm>\n", "</opm>\n<opm/>", "a.xml:46: opm: got a second root");
-  expect_refused(read_opm, "<secret></secret>",
+  expect_refused(opm_of, "<secret></secret>",
                  "a.xml:1: no orbit message, got XML with another root, must be opm or ndm");
-  expect_refused(read_opm, "<opm id=\"CCSDS_OPM_VERS\" version=\"3.0\"/>",
+  expect_refused(opm_of, "<opm id=\"CCSDS_OPM_VERS\" version=\"3.0\"/>",
                  "a.xml:1: opm: incomplete, must have one header and one body");
-  expect_refused(read_opm, "  <", "a.xml:1: no XML");
+  expect_refused(opm_of, "  <", "a.xml:1: no XML");
   expect_refused(
-      read_opm, standard_oem_xml,
+      opm_of, standard_oem_xml,
       "a.xml:2: CCSDS_OPM_VERS: missing, got an orbit ephemeris message (OEM), which the "
       "key oem_file of");
 }
 
 TEST_F(OrbitMessageXml, EphemeridesAreRefusedByLineAndElement) {
   const auto refuse = [](const char* from, const char* to, const std::string& words) {
-    expect_refused(read_oem, changed(standard_oem_xml, from, to), words);
+    expect_refused(oem_of, changed(standard_oem_xml, from, to), words);
   };
   refuse("X_DOT units=\"km/s\">4.73372", "X_DOT units=\"m/s\">4.73372",
          "a.xml:27: X_DOT: wrong unit, got \"m/s\", must be \"km/s\"");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 #include "scene/study_reader.hpp"
 #include "studies/descriptions/settings_fields.hpp"
 
@@ -47,6 +48,15 @@ class StudyText {
       text_ += "; ";
     }
   }
+  void add(const std::shared_ptr<const SphericalHarmonicCoefficients>& field) {
+    if (!field) return;
+    for (int n = 0; n <= field->degree(); ++n) {
+      for (int m = 0; m <= std::min(n, field->order()); ++m)
+        add_all(field->C(n, m), field->S(n, m));
+    }
+  }
+  /// The checksum of its file stands for it.
+  void add(const std::shared_ptr<const EarthOrientation>&) {}
   template <class... Values>
   void add_all(const Values&... values) {
     (add(values), ...);

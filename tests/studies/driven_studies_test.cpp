@@ -393,17 +393,16 @@ TEST(DrivenStudies, WaysBelowTheSurface) {
   const TransferResult result = study_transfer(scene);
   const TransferPoint& point = result.points.at(0);
   ASSERT_TRUE(point.has_answer() && point.lowest) << point.failure;
-  const double length_km = scene.units.length_km;
+  const double unit_km = scene.units.length_km;
   EXPECT_NEAR(*point.lowest, lowest_of(scene, {{0, point.best().start_change_m_s}}, 5.6), 1e-5);
   const WaypointPlan& plan = result.waypoints->plans.at(0);
   ASSERT_EQ(plan.impulses.size(), 3U);
-  EXPECT_NEAR(depth_in(plan.forbidden), 7200 - length_km * lowest_of(scene, plan.impulses, 5.6),
-              0.05)
+  EXPECT_NEAR(depth_in(plan.forbidden), 7200 - unit_km * lowest_of(scene, plan.impulses, 5.6), 0.05)
       << plan.forbidden;
   ASSERT_TRUE(result.optimal && result.optimal->plan);
   const ImpulsePlan& optimal = *result.optimal->plan;
-  EXPECT_NEAR(depth_in(optimal.forbidden),
-              7200 - length_km * lowest_of(scene, optimal.impulses, 5.6), 0.05)
+  EXPECT_NEAR(depth_in(optimal.forbidden), 7200 - unit_km * lowest_of(scene, optimal.impulses, 5.6),
+              0.05)
       << optimal.forbidden;
 }
 

@@ -92,7 +92,7 @@ TEST(FlightChecks, ATransferBelowTheSurfaceIsMarked) {
   WayLimits way(scene);
   way.fly(scene.nominal,
           ChiefFrame(scene.nominal, metric_units(scene), scene.transfer->frame).deviation(start),
-          scene.transfer->times[0]);
+          scene.start_time, scene.transfer->times[0]);
   EXPECT_NE(way.forbidden().find("km below the surface"), std::string::npos) << way.forbidden();
   scene.checks[SelfCheckName::surface].is_on = false;
   EXPECT_EQ(exit_code(study(6999.6)), 0);
