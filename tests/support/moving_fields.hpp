@@ -118,12 +118,20 @@ class Turning final : public TimeFunction {
   double size_;
 };
 
+/// One by one: g++ 12 warns of a list of them.
+inline std::vector<PointMass> three_masses() {
+  std::vector<PointMass> masses;
+  masses.push_back({0.9, {0, 0, 0}});
+  masses.push_back({0.04, {0.3, 0.1, -0.2}});
+  masses.push_back({0.06, {-0.2, 0.25, 0.1}});
+  return masses;
+}
+
 /// A body made of point masses that turns about the third axis, and another body on a circle about
 /// it, in units in which a low orbit has a radius and a speed of about 1.
 struct MovingFields {
   double rate = 0.3;
-  std::vector<PointMass> masses = {
-      {0.9, {0, 0, 0}}, {0.04, {0.3, 0.1, -0.2}}, {0.06, {-0.2, 0.25, 0.1}}};
+  std::vector<PointMass> masses = three_masses();
   double body_mu = 0.2;
   double body_distance = 4;
   double body_rate = 0.1;
