@@ -104,10 +104,10 @@ void read_orientation(const TableReader& system, EarthSettings& earth) {
 std::vector<SceneKey> earth_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const EarthSettings preset;
-  return {{"degree", form::integer(2, SphericalHarmonicField::highest_degree),
+  return {{"gravity_degree", form::integer(2, SphericalHarmonicField::highest_degree),
            absent::value(preset.degree), "of the harmonics of the Earth's field", owner},
-          {"order", form::integer(0, SphericalHarmonicField::highest_degree),
-           absent::other("`degree`"), "of the harmonics; 0 leaves zonal ones", owner},
+          {"gravity_order", form::integer(0, SphericalHarmonicField::highest_degree),
+           absent::other("`gravity_degree`"), "of the harmonics; 0 leaves zonal ones", owner},
           {"sun", form::boolean(), absent::value(preset.has_sun), "whether it attracts", owner},
           {"moon", form::boolean(), absent::value(preset.has_moon), "whether it attracts", owner},
           {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),
@@ -161,14 +161,16 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
   if (date.system == TimeSystem::utc) {
     if (const auto doubt = doubt_of_utc(date.epoch)) root.table("nominal").warn("", *doubt);
   }
-  if (system.has("degree")) earth.degree = static_cast<int>(system.integer("degree"));
+  if (system.has("gravity_degree"))
+    earth.degree = static_cast<int>(system.integer("gravity_degree"));
   earth.order = earth.degree;
-  if (system.has("order")) {
-    earth.order = static_cast<int>(system.integer("order"));
+  if (system.has("gravity_order")) {
+    earth.order = static_cast<int>(system.integer("gravity_order"));
     if (earth.order > earth.degree) {
-      system.fail("order", fmt::format("above the degree, got {} and degree = {}, must be at most "
-                                       "the degree",
-                                       earth.order, earth.degree));
+      system.fail("gravity_order",
+                  fmt::format("above the degree, got {} and gravity_degree = {}, must be at most "
+                              "the degree",
+                              earth.order, earth.degree));
     }
   }
   read_earth_field(system, date.epoch, settings, earth);

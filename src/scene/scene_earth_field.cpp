@@ -72,7 +72,7 @@ void read_earth_field(const TableReader& system, const Epoch& epoch, SystemSetti
                                              system.found("tide_system")));
     }
     if (earth.degree > shipped_degree) {
-      system.fail("degree",
+      system.fail("gravity_degree",
                   fmt::format("beyond the field that is built in, got {}, must be at most "
                               "{}, or gravity_file of a larger one (ICGEM, .gfc)",
                               earth.degree, shipped_degree));

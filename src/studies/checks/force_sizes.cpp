@@ -85,13 +85,13 @@ std::vector<Without> forces_of(const EarthSettings& earth) {
     };
   };
   if (earth.order > 0) {
-    forces.push_back(
-        {"tesseral harmonics", "order = 0", [](EarthSettings& settings) { settings.order = 0; }});
+    forces.push_back({"tesseral harmonics", "gravity_order = 0",
+                      [](EarthSettings& settings) { settings.order = 0; }});
   }
   for (const int degree : {2, 8, 20, 36, 70}) {
     if (earth.degree <= degree) continue;
     forces.push_back({"harmonics above " + std::to_string(degree),
-                      "degree = " + std::to_string(degree), truncated(degree)});
+                      "gravity_degree = " + std::to_string(degree), truncated(degree)});
   }
   if (earth.has_sun) {
     forces.push_back({"Sun", "sun = false", [](EarthSettings& s) { s.has_sun = false; }});

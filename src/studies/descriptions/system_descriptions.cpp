@@ -28,7 +28,8 @@ std::vector<SystemDescription> describe_systems() {
       {.model = SystemModel::earth,
        .name = "earth",
        .help = "the real Earth: a field of any degree and order that turns, Sun and Moon; an epoch "
-               "and axes in [nominal]: degree, order, gravity_file, sun, moon, orientation_file",
+               "and axes in [nominal]: gravity_degree, gravity_order, gravity_file, sun, moon, "
+               "orientation_file",
        .is_orbit = true,
        .degrees_of_freedom = {3},
        .make = earth_system},
