@@ -46,6 +46,16 @@ Json system_json(const SystemSettings& system) {
                             {"epoch", text_or_null(system.gravity_file->epoch)},
                             {"origin_offset_m", json_value(system.gravity_file->origin_offset_m)}};
   }
+  if (const auto& earth = system.earth) {
+    json["earth"] = {
+        {"gravity_degree", earth->degree},
+        {"gravity_order", earth->order},
+        {"sun_mu_km3_s2", earth->has_sun ? Json(earth->mu_sun_km3_s2) : Json(nullptr)},
+        {"moon_mu_km3_s2", earth->has_moon ? Json(earth->mu_moon_km3_s2) : Json(nullptr)},
+        {"epoch_tt", earth->epoch_tt},
+        {"orientation_file", text_or_null(earth->orientation_file)},
+        {"axes", earth->axes}};
+  }
   return json;
 }
 

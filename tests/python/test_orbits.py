@@ -122,7 +122,8 @@ def test_keywords_are_the_keys_that_the_command_lists():
     for name, table, text in keys:
         title = f"`[{table}]`" if table else "The top"
         section = listed.split(f"## {title}\n")[1].split("\n## ")[0]
-        shown = name in section or name[0] == "J" and "`J2` to `J20`" in section
+        shown = (name in section or name[0] == "J" and "`J2` to `J20`" in section
+                 or name.startswith("epoch_") and "`epoch_utc` to `epoch_gps`" in section)
         assert shown and text in section, name
     parameters = inspect.signature(hamjet.orbit).parameters
     assert list(parameters) == names

@@ -141,7 +141,10 @@ TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
       {"gravity_m_s2", {pendulum, pair_end, "/gravity_m_s2", 9}},
       {"omega_rad_per_s", {chain, pair_end, "/omega_rad_per_s", 5}},
       {"pairs", {chain, pair_end, "/pairs", 1}},
-      {"gravity_file", {file, orbit_end, "/gravity_file/model_name", "EGM96"}}};
+      {"gravity_file", {file, orbit_end, "/gravity_file/model_name", "EGM96"}},
+      {"earth",
+       {"model = \"earth\"\ngravity_degree = 7\n",
+        orbit_end + "epoch_tt = \"2026-03-01T06:00:00\"\n", "/earth/gravity_degree", 7}}};
   for (const std::string_view name : field_names<SystemSettings>()) {
     if (name == "model") continue;                   // at the top of the file
     if (name == "own_degrees_of_freedom") continue;  // of a system that no file describes

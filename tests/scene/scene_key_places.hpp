@@ -28,6 +28,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   static const std::string oscillator_file = "paper/harmonic-oscillator";
   static const Override plane = {"nominal", "{position_m=[1, 1], momentum_kg_m_s=[0, 0]}"};
   static const std::map<std::string, Place, std::less<>> of_models = {
+      {"earth", {"earth/pair"}},
       {"kepler", {orbit_file, {{"system", "{model=\"kepler\", mu_km3_s2=4e5}"}}}},
       {"harmonic-oscillator", {oscillator_file}},
       {"oscillator-pair",
@@ -86,6 +87,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
 /// The values and surroundings of keys that do not follow from the keys' forms.
 inline const std::map<std::string, Place>& special_places() {
   static const Override no_duration = {"jet.duration_orbits", "null"};
+  static const Override no_epoch = {"nominal.epoch_utc", "null"};
   static const Override no_count = {"transfer.count", "null"};
   static const Override no_validity_count = {"validity.count", "null"};
   static const Override no_uncertainty_count = {"uncertainty.count", "null"};
@@ -148,6 +150,20 @@ inline const std::map<std::string, Place>& special_places() {
       {"event.distance_km", {"", {{"event.surface", "\"distance\""}}}},
       {"bounded.box.reference", {"", {}, "\"member\""}},
       {"bounded.box.position_m", {"", {{"bounded.box.reference", "\"rest\""}}}},
+      {"system.model", {"", {}, "\"zonal-gravity\""}},
+      {"system.gravity_degree", {"", {}, "12"}},
+      {"system.gravity_order", {"", {}, "5"}},
+      {"system.orientation_file",
+       {"",
+        {{"nominal.epoch_utc", "\"2016-12-31T00:00:00\""}, {"jet.duration_s", "1000"}},
+        "\"../../../tests/fuzz/corpus/earth_orientation/plain.txt\""}},
+      {"system.tide_system",
+       {"", {{"system.gravity_file", "\"../../gravity/EGM96-to-20.gfc\""}}, "\"tide_free\""}},
+      {"nominal.epoch_utc", {"earth/pair", {}, "\"2026-03-01T00:00:00\""}},
+      {"nominal.epoch_tt", {"earth/pair", {no_epoch}, "\"2026-03-01T00:00:00\""}},
+      {"nominal.epoch_tai", {"earth/pair", {no_epoch}, "\"2026-03-01T00:00:00\""}},
+      {"nominal.epoch_gps", {"earth/pair", {no_epoch}, "\"2026-03-01T00:00:00\""}},
+      {"nominal.axes", {"earth/pair"}},
       {"system.gravity_file", {"", {field, highest}, "\"../gravity/EGM96-zonals.gfc\""}},
       {"system.highest_zonal", {"", {field}}},
       {"system.zonals", {"", {field}}},
