@@ -141,7 +141,7 @@ TEST(EventStudy, TellsTheMissesOfTheWorstDeputies) {
   for (const int order : {1, 4}) {
     const Scene scene = io::parse_scene(
         "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\n"
-        "e = 2e-4\ni_deg = 50\nta_deg = 200\n[jet]\norder = " +
+        "e = 2e-4\ni_deg = 50\nraan_deg = 0\nargp_deg = 0\nta_deg = 200\n[jet]\norder = " +
             std::to_string(order) +
             "\nduration_orbits = 1.5\n[event]\nsurface = \"apsis\"\ndirection = \"falling\"\n"
             "amplitudes_m = [1, 100]\n",

@@ -93,7 +93,8 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
 TEST_F(StoredPolynomials, OfKeplersEllipsesSayThatHighDegreesAreRounding) {
   write("kepler.toml",
         "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\ne = 0.6\n"
-        "i_deg = 50\nargp_deg = 20\nta_deg = 30\n[jet]\norder = 3\nduration_orbits = 1.3\n"
+        "i_deg = 50\nraan_deg = 0\nargp_deg = 20\nta_deg = 30\n[jet]\norder = 3\nduration_orbits = "
+        "1.3\n"
         "coordinates = \"flow-box\"\n[[integrator]]\nmethod = \"gauss\"\ntolerance = 1e-12\n");
   for (const std::string estimate : {"true", "false"}) {
     const std::string said = in_one_line(succeed({"run", "kepler.toml", "-o", estimate, "--set",
