@@ -142,7 +142,8 @@ Json polynomials_json(const PropagationResult& result, const RunResult& run) {
   json["symplecticity_by_degree"] = symplecticity_json(charted.symplecticity);
   json["error_estimate_by_degree"] = by_degree_json(charted.error_estimate.by_degree);
   // What is relative to the coefficients of these says nothing.
-  json["degrees_of_rounding"] = degrees_without_digits(result.scene, charted).of_rounding;
+  const DegreesWithoutDigits without = degrees_without_digits(result.scene, charted);
+  json["degrees_of_errors_alone"] = without.negligible;
   json["error_estimate_failure"] = text_or_null(charted.error_estimate.failure);
   json["error_estimate_seconds"] = charted.error_estimate.seconds;
   if (!description.flow_box) return json;

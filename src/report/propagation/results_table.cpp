@@ -53,21 +53,21 @@ std::string charted_line(const Scene& scene, const RunResult& run) {
   }
   const DegreesWithoutDigits without = degrees_without_digits(scene, charted);
   std::vector<SymplecticityDefect> defects = charted.symplecticity;
-  std::erase_if(defects, [&](const auto& defect) { return without.has_rounding_alone(defect); });
+  std::erase_if(defects, [&](const auto& defect) { return without.are_behind(defect); });
   const JetErrorEstimate& estimate = charted.error_estimate;
   std::string error = "not estimated: " + estimate.failure;
   if (estimate.by_degree) {
     std::vector<double> errors = *estimate.by_degree;
-    for (const int degree : without.of_rounding) errors[static_cast<std::size_t>(degree)] = 0;
+    for (const int degree : without.negligible) errors[static_cast<std::size_t>(degree)] = 0;
     error = "estimate " + size_text(*std::max_element(errors.begin(), errors.end()));
   }
   std::string text = fmt::format(
       "{}: polynomials in {} coordinates too, in {}, time {}; symplecticity in them {}, error {}",
       run.settings.label, coordinates, counted(charted.jet.front().space().variables(), "variable"),
       duration_text(charted.seconds), largest_of(defects), error);
-  if (!without.of_rounding.empty()) {
-    text += fmt::format("; without degree {}, rounding alone beside degree 1",
-                        fmt::join(without.of_rounding, ", "));
+  if (!without.negligible.empty()) {
+    text += fmt::format("; without degree {}, errors alone, of at most {:.1e} of degree 1",
+                        fmt::join(without.negligible, ", "), without.largest_share);
   }
   return text + "\n";
 }

@@ -131,20 +131,18 @@ void change_charts(const Scene& scene, const RunResult& run, ChartedJet& result)
 
 }  // namespace
 
-bool DegreesWithoutDigits::has_rounding_alone(const SymplecticityDefect& defect) const {
-  // Degree k of the brackets has products of the slices a and b of k + 2 = a + b, from 1 to k + 1.
+bool DegreesWithoutDigits::are_behind(const SymplecticityDefect& defect) const {
+  // Degree k of the brackets has products of slices a and b, where a + b = k + 2, from 1 to k + 1.
   if (defect.degree == 0) return false;
   for (int degree = 2; degree <= defect.degree + 1; ++degree) {
-    if (std::find(of_rounding.begin(), of_rounding.end(), degree) == of_rounding.end()) {
-      return false;
-    }
+    if (std::find(negligible.begin(), negligible.end(), degree) == negligible.end()) return false;
   }
   return true;
 }
 
 DegreesWithoutDigits degrees_without_digits(const Scene& scene, const ChartedJet& charted) {
-  constexpr double nothing = 1e-9;
-  constexpr double roundings = 0x1p13;
+  constexpr double largest_negligible = 1e-6;
+  constexpr double largest_defect = 0.1;
   DegreesWithoutDigits result;
   if (!charted.section || !charted.failure.empty()) return result;
   const FlowJet<Extended> jet = comparable_flow_box(scene, *charted.section, charted.jet);
@@ -152,11 +150,19 @@ DegreesWithoutDigits degrees_without_digits(const Scene& scene, const ChartedJet
   const double linear = largest_coefficient(jet, 1);
   for (int degree = 2; degree <= scene.order; ++degree) {
     const double size = largest_coefficient(jet, degree);
-    const double error =
-        errors ? (*errors)[static_cast<std::size_t>(degree)] * size : roundings * rounding * linear;
-    if (error < size) continue;
-    const bool is_rounding = size == 0 || error <= nothing * linear;
-    (is_rounding ? result.of_rounding : result.wrong).push_back(degree);
+    const double error = errors ? (*errors)[static_cast<std::size_t>(degree)] * size : 0;
+    const bool has_defect = std::any_of(
+        charted.symplecticity.begin(), charted.symplecticity.end(), [&](const auto& defect) {
+          return defect.degree + 1 == degree && !(defect.scaled < largest_defect);
+        });
+    if (error < size && !has_defect) continue;
+    const double share = std::max(size, error) / linear;
+    if (share < largest_negligible) {
+      result.negligible.push_back(degree);
+      raise_to(result.largest_share, share);
+    } else {
+      result.wrong.push_back(degree);
+    }
   }
   return result;
 }

@@ -27,22 +27,22 @@ std::optional<std::string> reason_without_charted_jet(const Scene& scene);
 /// Precondition: reason_without_charted_jet has no value, and the coordinates are not Cartesian.
 ChartedJet charted_jet(const Scene& scene, const RunResult& run);
 
-/// Degrees of a flow box's polynomials that have no right digit, where its chart or rounding leaves
-/// nothing but rounding of them.
+/// Degrees of a flow box's polynomials, from 2 on, of which no digit is right. What is relative to
+/// their coefficients says nothing.
 struct DegreesWithoutDigits {
-  /// Those whose coefficients or errors are a thousand millionth of degree 1's at most, of a jet in
-  /// the chief's own units: on an ellipse of Kepler's problem degree 1 says all. What is relative
-  /// to such coefficients says nothing.
-  std::vector<int> of_rounding;
-  /// The others, which are wrong.
-  std::vector<int> wrong;
+  /// Those whose coefficients and errors are below a millionth of degree 1's, of a jet in the
+  /// chief's own units: on an ellipse of Kepler's problem degree 1 says all, and others are errors
+  /// alone.
+  std::vector<int> negligible;
+  double largest_share = 0;  ///< of these coefficients and errors in degree 1's
+  std::vector<int> wrong;    ///< the others
 
-  /// Whether the Poisson brackets of a degree consist of products with degrees of rounding alone.
-  bool has_rounding_alone(const SymplecticityDefect& defect) const;
+  /// Whether the Poisson brackets of a degree consist of products with negligible degrees alone.
+  bool are_behind(const SymplecticityDefect& defect) const;
 };
 
-/// The degrees from 2 on whose error estimate is at least their largest coefficient; where nothing
-/// was estimated, those whose coefficients are below 2^13 roundings of degree 1's.
+/// A degree has no digits where its error estimate is at least its largest coefficient, or where
+/// the Poisson brackets that have it with degree 1 do not vanish beside their own terms.
 DegreesWithoutDigits degrees_without_digits(const Scene& scene, const ChartedJet& charted);
 
 }  // namespace hamjet

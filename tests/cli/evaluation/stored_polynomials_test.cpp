@@ -88,9 +88,9 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
   expect_error({"transfer", "far.toml", "--jet", "box.h5"}, 2, {"flow-box coordinates"});
 }
 
-// On Kepler's ellipses the flow of these coordinates is linear, so that all else is rounding, whose
+// On Kepler's ellipses the flow of these coordinates is linear, so that all else is error, whose
 // own relative errors and defects are no answer; estimated or not.
-TEST_F(StoredPolynomials, OfKeplersEllipsesSayThatHighDegreesAreRounding) {
+TEST_F(StoredPolynomials, OfKeplersEllipsesSayThatHighDegreesAreErrorsAlone) {
   write("kepler.toml",
         "[system]\nmodel = \"kepler\"\nmu_km3_s2 = 398600.4415\n[nominal]\na_km = 9000\ne = 0.6\n"
         "i_deg = 50\nraan_deg = 0\nargp_deg = 20\nta_deg = 30\n[jet]\norder = 3\nduration_orbits = "
@@ -100,11 +100,11 @@ TEST_F(StoredPolynomials, OfKeplersEllipsesSayThatHighDegreesAreRounding) {
     const std::string said = in_one_line(succeed({"run", "kepler.toml", "-o", estimate, "--set",
                                                   "checks.error-estimate=" + estimate})
                                              .out);
-    EXPECT_NE(said.find("; without degree 2, 3, rounding alone beside degree 1"), std::string::npos)
+    EXPECT_NE(said.find("; without degree 2, 3, errors alone, of at most "), std::string::npos)
         << said;
     const Json summary =
         read_json(directory_ / estimate / "summary.json")["runs"][0]["polynomials"];
-    EXPECT_EQ(summary["degrees_of_rounding"], Json({2, 3}));
+    EXPECT_EQ(summary["degrees_of_errors_alone"], Json({2, 3}));
     const std::string words = "symplecticity in them ";
     const std::size_t place = said.find(words);
     ASSERT_NE(place, std::string::npos) << said;
@@ -117,9 +117,9 @@ TEST_F(StoredPolynomials, OfKeplersEllipsesSayThatHighDegreesAreRounding) {
     }
   }
   run_in("flow-box", "boxes");
-  EXPECT_EQ(
-      read_json(directory_ / "boxes/summary.json")["runs"][0]["polynomials"]["degrees_of_rounding"],
-      Json::array());
+  EXPECT_EQ(read_json(directory_ /
+                      "boxes/summary.json")["runs"][0]["polynomials"]["degrees_of_errors_alone"],
+            Json::array());
 }
 
 // In positions and momenta a flow box is the jet that is integrated there, to the errors of both
