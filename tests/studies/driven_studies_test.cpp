@@ -9,7 +9,6 @@
 
 #include "algebra/state_sums.hpp"
 #include "driven_scenes.hpp"
-#include "formats/jet_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
@@ -21,6 +20,7 @@
 #include "studies/formation/deputy_flows.hpp"
 #include "studies/formation/deputy_motion.hpp"
 #include "studies/formation/single_transfer.hpp"
+#include "studies/formation/two_point_flight.hpp"
 #include "studies/formation/validity/flown_deputies.hpp"
 #include "studies/stability/stability_errors.hpp"
 #include "studies/uncertainty/uncertainty.hpp"
