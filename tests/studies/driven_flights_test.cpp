@@ -41,29 +41,12 @@ using test::driven_flight;
 
 constexpr double close = 1e-10;
 
-/// The derivative of the flight by one number of the start.
-std::vector<double> derivative_of_flight(const std::vector<double>& from, double start,
-                                         double duration, std::size_t variable) {
-  constexpr double step = 1e-4;
-  std::vector<double> up = from;
-  std::vector<double> down = from;
-  up[variable] += step;
-  down[variable] -= step;
-  const std::vector<double> far = driven_flight(up, start, duration);
-  const std::vector<double> near = driven_flight(down, start, duration);
-  std::vector<double> result;
-  for (std::size_t i = 0; i < 6; ++i) result.push_back((far[i] - near[i]) / (2 * step));
-  return result;
-}
-
-/// How far a jet is from the flight and its derivatives by central differences, which are right to
-/// 1e-7.
 void expect_jet(const FlowJet<double>& jet, const std::vector<double>& from, double start,
                 double duration) {
   EXPECT_LT(apart(nominal_of(jet), driven_flight(from, start, duration)), close);
   for (std::size_t k = 0; k < 6; ++k) {
-    const std::vector<double> slope = derivative_of_flight(from, start, duration, k);
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(jet[i][1 + k], slope[i], 1e-6);
+    const std::vector<double> slope = test::derivative_of_driven_flight(from, start, duration, k);
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(jet[i][1 + k], slope[i], 1e-7);
   }
 }
 
@@ -122,11 +105,12 @@ TEST(DrivenFlights, LinearFlow) {
     const auto matrix = flow.at(time);
     const double unit = std::ldexp(1.0, problem.momentum_exponent);
     for (std::size_t k = 0; k < 6; ++k) {
-      const std::vector<double> slope = derivative_of_flight(scene.nominal, late, time, k);
+      const std::vector<double> slope =
+          test::derivative_of_driven_flight(scene.nominal, late, time, k);
       for (std::size_t i = 0; i < 6; ++i) {
         const double units = (k < 3 ? 1 : unit) / (i < 3 ? 1 : unit);
         EXPECT_NEAR(matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)),
-                    slope[i] * units, 1e-6);
+                    slope[i] * units, 1e-7);
       }
     }
   }

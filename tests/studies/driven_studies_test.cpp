@@ -163,8 +163,10 @@ TEST(DrivenStudies, Waypoints) {
 }
 
 TEST(DrivenStudies, CoastingStart) {
-  Scene scene = with_transfer({2.2});
-  scene.transfer->longest_coast = 2.5;
+  Scene scene = with_transfer({1.2});
+  scene.transfer->start = {{100, -200, 1500}, {0, 0, 0}};
+  scene.transfer->end = ArrivalState({0, 0, 0}, {0, 0, 0});
+  scene.transfer->longest_coast = 5;
   const TransferResult result = study_transfer(scene);
   ASSERT_TRUE(result.coasting && result.coasting->plan) << result.coasting->failure;
   const WaypointPlan& plan = *result.coasting->plan;
