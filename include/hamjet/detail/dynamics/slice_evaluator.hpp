@@ -48,7 +48,7 @@ class SliceEvaluator {
         space_(std::move(space)),
         powers_(*list_),
         propagation_(*list_, working_order),
-        fields_(*list_, working_order),
+        fields_(*list_, working_order, space_->first(working_order + 1)),
         working_order_(working_order) {
     const std::size_t values = list_->operations().size();
     stride_ = space_->first(working_order + 1);
@@ -187,8 +187,8 @@ class SliceEvaluator {
     return fields_.evaluate(i, [this](std::size_t k) -> const T& { return *value(k); });
   }
   [[gnu::noinline]] void set_field_factors(std::size_t i) {
-    fields_.evaluate_terms(
-        i, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
+    fields_.evaluate_coefficients(
+        i, 0, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
         [&](std::size_t term, const T& factor) { propagation_.factor(i, term) = factor; });
   }
 
@@ -316,6 +316,9 @@ class SliceEvaluator {
   }
 
   void form_sums(int d) {
+    if (!fields_.is_empty()) {
+      fields_.form_cofactors(d - 1, space_->first(d - 1), space_->first(d), slices_.data());
+    }
     for (const Step& step : steps_) form_sums(step, d);
   }
 
@@ -329,7 +332,9 @@ class SliceEvaluator {
       case OperationCode::input:
       case OperationCode::linear:
       case OperationCode::time_function:
+        break;
       case OperationCode::field:
+        form_field_sum(i, list_->operations()[i], d);
         break;
       case OperationCode::deviation_product:
         form_deviation_product(i, list_->operations()[i], d);
@@ -383,15 +388,27 @@ class SliceEvaluator {
     for (std::size_t i = 0; i < schedules_.size(); ++i) {
       const Operation& o = list_->operations()[i];
       if (o.code != OperationCode::deviation_product) continue;
-      for (int d = o.lowest[0] + o.lowest[1]; d <= working_order_; ++d) {
+      for (int d = o.lowest[0] + o.lowest[1]; d < working_order_; ++d) {
         schedules_[i].push_back(&space_->products_above(d, o.lowest[0], o.lowest[1], o.u == o.v));
       }
     }
   }
 
+  [[gnu::noinline]] void form_field_sum(std::size_t i, const Operation& o, int d) {
+    T* const w = value(i);
+    for (std::size_t c = 0; c < o.terms.size(); ++c) {
+      T* const target = c == 0 ? w : scratch_.data();
+      interior_product(*space_, d, fields_.cofactor(i, c), value(o.terms[c].value), target);
+      count_product(d);
+      if (c == 0) continue;
+      for (std::size_t k = space_->first(d); k < space_->first(d + 1); ++k) w[k] += target[k];
+    }
+  }
+
   [[gnu::noinline]] void form_deviation_product(std::size_t i, const Operation& o, int d) {
     const int lowest = o.lowest[0] + o.lowest[1];
-    if (d < lowest) return;
+    // Cofactors, which alone need it, have no slice of the working order.
+    if (d < lowest || d == working_order_) return;
     const ProductSchedule& schedule = *schedules_[i][static_cast<std::size_t>(d - lowest)];
     product_above(*space_, schedule, d, o.lowest[0], o.lowest[1], value(o.u), value(o.v), value(i));
     ++work_.slice_products;

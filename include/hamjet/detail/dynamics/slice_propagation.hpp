@@ -295,9 +295,14 @@ class SlicePropagation {
     for (std::size_t i = scales_.size(); i-- > list_->inputs();) {
       const Operation& o = list_->operations()[i];
       if (list_->has_sums(i)) {
-        for_each_operand(o, [&](std::size_t operand) { is_needed[operand] = true; });
+        if (o.code == OperationCode::field) {
+          for (const LinearTerm& term : o.terms) is_needed[term.value] = true;
+          for (const FieldProduct& product : o.products) is_needed[product.factor] = true;
+        } else {
+          for_each_operand(o, [&](std::size_t operand) { is_needed[operand] = true; });
+        }
         const bool is_product = o.code == OperationCode::product ||
-                                o.code == OperationCode::square ||
+                                o.code == OperationCode::square || o.code == OperationCode::field ||
                                 o.code == OperationCode::deviation_product;
         if (!is_product) is_needed[i] = true;
       }
