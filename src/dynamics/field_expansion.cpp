@@ -85,8 +85,9 @@ class FieldExpansion {
   /// Fields whose positions have equal deviations.
   struct Group {
     Deviations deviations;
-    std::vector<LinearTerm> terms;       ///< the monomials as values
-    std::vector<std::size_t> monomials;  ///< and their places among the coefficients
+    std::vector<LinearTerm> terms;  ///< the coordinates that move
+    std::vector<std::size_t> axes;
+    std::vector<FieldProduct> products;
   };
 
   /// Whether a value has deviations.
@@ -116,7 +117,8 @@ class FieldExpansion {
     Operation o;
     o.code = OperationCode::field;
     o.terms = groups_[group].terms;
-    o.monomials = groups_[group].monomials;
+    o.axes = groups_[group].axes;
+    o.products = groups_[group].products;
     o.parts = std::move(parts);
     return add(std::move(o));
   }
@@ -134,30 +136,38 @@ class FieldExpansion {
     return groups_.size() - 1;
   }
 
-  /// Adds the monomials of the deviations, each as a product of two lower ones. A coordinate that
-  /// is a number has no deviation.
+  /// Sets the terms and products of a group, and adds the factors of the products, each as a
+  /// product of two lower ones. A coordinate that is a number has no deviation.
   void add_monomials(Group& group, const std::array<std::size_t, 3>& position) {
-    const auto is_fixed = [&](std::size_t i) { return group.deviations[i].empty(); };
+    std::array<std::size_t, 3> term = {};
     std::map<std::array<int, 3>, std::size_t> values;
-    for (int degree = 1; degree <= order_; ++degree) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (group.deviations[i].empty()) continue;
+      std::array<int, 3> powers = {};
+      powers[i] = 1;
+      values[powers] = place_[position[i]];
+      term[i] = group.terms.size();
+      group.terms.push_back({place_[position[i]], 1});
+      group.axes.push_back(i);
+    }
+    for (int degree = 2; degree <= order_; ++degree) {
       for (int a = degree; a >= 0; --a) {
         for (int b = degree - a; b >= 0; --b) {
           const std::array<int, 3> powers = {a, b, degree - a - b};
-          if ((a > 0 && is_fixed(0)) || (b > 0 && is_fixed(1)) || (powers[2] > 0 && is_fixed(2))) {
-            continue;
-          }
-          std::size_t value = 0;
-          if (degree == 1) {
-            value = place_[position[a > 0 ? 0 : (b > 0 ? 1 : 2)]];
-          } else {
-            value = add_monomial(powers, values);
-          }
-          values[powers] = value;
-          group.terms.push_back({value, 1});
-          group.monomials.push_back(field_monomial(a, b, powers[2]));
+          const std::size_t last = powers[2] > 0 ? 2 : (b > 0 ? 1 : 0);
+          std::array<int, 3> rest = powers;
+          --rest[last];
+          std::array<int, 3> alone = {};
+          alone[last] = 1;
+          if (!values.contains(rest) || !values.contains(alone)) continue;
+          group.products.push_back({term[last], values[rest], field_monomial(a, b, powers[2])});
+          if (degree < order_) values[powers] = add_monomial(powers, values);
         }
       }
     }
+    std::stable_sort(
+        group.products.begin(), group.products.end(),
+        [](const FieldProduct& x, const FieldProduct& y) { return x.coordinate < y.coordinate; });
   }
 
   std::size_t add_monomial(const std::array<int, 3>& powers,

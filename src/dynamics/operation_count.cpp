@@ -26,8 +26,18 @@ double series_multiply_adds(const OperationList& recorded, const SeriesSpace& sp
       orders = std::max(orders, part.orders[0] + part.orders[1] + part.orders[2]);
     }
     if (!list.has_sums(i)) continue;
+    if (o.code == OperationCode::field) {
+      total += static_cast<double>(o.terms.size()) * product;
+      for (const FieldProduct& p : o.products) {
+        // Its share in a cofactor, whose slices begin with the degree of the factor.
+        for (int d = 1; d < working_order; ++d) {
+          if (p.monomial < local_field_size(d + 1)) total += static_cast<double>(space.count(d));
+        }
+      }
+      continue;
+    }
     if (o.code == OperationCode::deviation_product) {
-      for (int d = o.lowest[0] + o.lowest[1]; d <= working_order; ++d) {
+      for (int d = o.lowest[0] + o.lowest[1]; d < working_order; ++d) {
         const ProductSchedule& schedule =
             space.products_above(d, o.lowest[0], o.lowest[1], o.u == o.v);
         total += static_cast<double>(o.u == o.v ? schedule.square_multiply_adds

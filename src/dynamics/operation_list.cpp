@@ -50,6 +50,7 @@ void OperationList::set_properties(std::size_t value) {
       break;
     case OperationCode::field:
       is_affine = false;
+      has_sums = !o.products.empty();
       break;
     default:
       has_sums = true;
@@ -121,6 +122,7 @@ OperationList needed_operations(std::size_t inputs, std::vector<Operation> opera
     o.u = place[o.u];
     o.v = place[o.v];
     for (LinearTerm& term : o.terms) term.value = place[term.value];
+    for (FieldProduct& product : o.products) product.factor = place[product.factor];
     for (FieldPart& part : o.parts) {
       for (std::size_t& value : part.position) value = place[value];
     }

@@ -41,7 +41,7 @@ class TimeExpansion {
         list_(expanded_ ? expanded_.get() : &list),
         order_(order),
         stride_(static_cast<std::size_t>(order) + 1),
-        fields_(*list_, order),
+        fields_(*list_, order, stride_),
         field_coefficients_(fields_.is_empty() ? 0 : list_->operations().size()) {
     const auto operations = list_->operations();
     coefficients_.assign(operations.size() * stride_, T(Real(0)));
@@ -82,6 +82,10 @@ class TimeExpansion {
     }
     if (k > 0 && list_->has_time()) input(list_->variables())[k] = k == 1 ? unit_ : T(Real(0));
     if (k > field_degree_ && !fields_.is_empty()) raise_field_degree();
+    if (k > 1 && !fields_.is_empty()) {
+      const auto power = static_cast<std::size_t>(k);
+      fields_.form_cofactors(k - 1, power - 1, power, coefficients_.data());
+    }
     for (const Step& step : steps_) form(step, k);
   }
 
@@ -187,11 +191,11 @@ class TimeExpansion {
     const std::size_t place = o.value / stride_;
     if (k == 0) return fields_.evaluate(place, constant_terms());
     T sum(Real(0));
-    // Monomials above degree k have no such power, and stand behind the others.
-    const std::vector<T>& coefficients = field_coefficients_[place];
-    for (std::size_t t = 0; t < coefficients.size(); ++t) {
-      const T* const monomial = coefficients_.data() + terms_[o.first_term + t].value;
-      sum += coefficients[t] * monomial[k];
+    for (std::size_t c = 0; c < o.last_term - o.first_term; ++c) {
+      const T* const cofactor = fields_.cofactor(place, c);
+      const T* const coordinate = coefficients_.data() + terms_[o.first_term + c].value;
+      sum += field_coefficients_[place][c] * coordinate[k];
+      sum += sum_of(1, k - 1, [&](int j) { return cofactor[j] * coordinate[k - j]; });
     }
     return sum;
   }
@@ -200,17 +204,16 @@ class TimeExpansion {
   /// that no digit depends on how far an expansion goes.
   void raise_field_degree() {
     constexpr int first_degree = 4;
-    const bool is_first = field_degree_ == 0;
-    field_degree_ = std::min(order_, is_first ? first_degree : 2 * field_degree_);
+    const int known = field_degree_;
+    field_degree_ = std::min(order_, known == 0 ? first_degree : 2 * known);
     for (const Step& step : steps_) {
       if (step.code != OperationCode::field) continue;
       const std::size_t place = step.value / stride_;
-      std::vector<T>& coefficients = field_coefficients_[place];
-      if (is_first) coefficients.clear();
-      fields_.evaluate_terms(place, field_degree_, constant_terms(),
-                             [&](std::size_t t, const T& coefficient) {
-                               if (t == coefficients.size()) coefficients.push_back(coefficient);
-                             });
+      field_coefficients_[place].resize(step.last_term - step.first_term);
+      fields_.evaluate_coefficients(place, known, field_degree_, constant_terms(),
+                                    [&](std::size_t t, const T& coefficient) {
+                                      field_coefficients_[place][t] = coefficient;
+                                    });
     }
   }
 
@@ -262,7 +265,7 @@ class TimeExpansion {
   int order_;
   std::size_t stride_;
   FieldValues<T, Real> fields_;
-  std::vector<std::vector<T>> field_coefficients_;  ///< of the monomials, by value
+  std::vector<std::vector<T>> field_coefficients_;  ///< of the coordinates, by value
   int field_degree_ = 0;
   T unit_ = T(Real(1));
   std::map<const TimeFunction*, std::vector<T>> time_values_;

@@ -26,10 +26,14 @@ using test::driven_flight;
 
 constexpr double epoch = 1.9;
 
+/// Both pass each other 2.8 units of time after the epoch, within the window.
 EncounterProblem two_driven() {
   EncounterProblem problem{test::driven_kepler(), {}, ClockTime(epoch)};
   problem.spacecraft[0].state = {1, 0, 0, 0, 0.95, 0.4};
-  problem.spacecraft[1].state = {1.001, -2e-3, 1e-3, 1e-3, 0.95, 0.401};
+  std::vector<double> passing = driven_flight(problem.spacecraft[0].state, epoch, 2.8);
+  const std::vector<double> apart_then = {5e-4, -3e-4, 6e-4, 2e-3, 3e-3, -1e-3};
+  for (std::size_t i = 0; i < 6; ++i) passing[i] += apart_then[i];
+  problem.spacecraft[1].state = driven_flight(passing, epoch + 2.8, -2.8);
   for (UncertainSpacecraft& craft : problem.spacecraft) {
     craft.factor.topLeftCorner<3, 3>() = 1e-4 * Eigen::Matrix3d::Identity();
     craft.factor.bottomRightCorner<3, 3>() = 1e-4 * Eigen::Matrix3d::Identity();
@@ -88,8 +92,8 @@ TEST(DrivenEncounter, FlownSeparations) {
       one = driven_flight(one, now, 2.5 / places);
       other = driven_flight(other, now, 2.5 / places);
     }
-    // Between the places the distance changes by less.
-    EXPECT_NEAR(found[k], least, 1e-8) << k;
+    // Near its minimum the distance changes by less between the places.
+    EXPECT_NEAR(found[k], least, 1e-7) << k;
   }
 }
 

@@ -47,6 +47,16 @@ struct FieldPart {
   Extended factor = 1;
 };
 
+/// A monomial of an expanded field, as a product: its coefficient, at `monomial` in a LocalField,
+/// times the deviation of `factor` times that of the coordinate `coordinate`, counted among the
+/// field's terms.
+struct FieldProduct {
+  std::size_t coordinate = 0;
+  std::size_t factor = 0;  ///< value whose deviation is the rest of the monomial
+  std::size_t monomial = 0;
+  bool operator==(const FieldProduct&) const = default;
+};
+
 /// One operation. Its operands are numbers of earlier operations, except that a sine names its
 /// cosine, which follows.
 struct Operation {
@@ -57,10 +67,10 @@ struct Operation {
   std::vector<LinearTerm> terms = {};
   std::shared_ptr<const TimeFunction> time_function = {};
   std::size_t component = 0;          ///< of the time function
-  std::vector<FieldPart> parts = {};  ///< of a field; all have the same deviations of the position
-  /// For a field that expand_fields made, the slices above degree 0 are sums of coefficients times
-  /// the slices of `terms`: this is the monomial of each term, in the order of a LocalField.
-  std::vector<std::size_t> monomials = {};
+  std::vector<FieldPart> parts = {};  ///< of a field; all have the same deviations
+  // Of a field that expand_fields made, whose terms are the coordinates that move:
+  std::vector<std::size_t> axes = {};       ///< which coordinate each term is: 0, 1 or 2
+  std::vector<FieldProduct> products = {};  ///< by coordinate, then by degree
   /// For a product of deviations, the lowest degrees that u - u_0 and v - v_0 have.
   std::array<int, 2> lowest = {1, 1};
 };
@@ -76,6 +86,7 @@ void for_each_operand(const Operation& o, const Take& take) {
       return;
     case OperationCode::field:
       for (const LinearTerm& term : o.terms) take(term.value);
+      for (const FieldProduct& product : o.products) take(product.factor);
       for (const FieldPart& part : o.parts) {
         for (const std::size_t value : part.position) take(value);
       }
@@ -162,15 +173,18 @@ OperationList needed_operations(std::size_t inputs, std::vector<Operation> opera
 /// expansions in the time everything.
 enum class FieldMotion { with_variables, with_time };
 
-/// The list for series of an order: each field is expanded about the constant terms of its
-/// position,
+/// The list for series of an order. Each field is expanded about the constant terms of its
+/// position, with d the deviation of the position from them,
 ///
-///   U(r) = c_0 + sum over 1 <= |alpha| <= order (at least 1) of c_alpha (r - r_0)^alpha ,
+///   U(r) = c_0 + sum over the coordinates i of d_i (c_(e_i) + sum over beta of c_(beta + e_i)
+///   d^beta)
 ///
-/// where c_alpha come from the LocalField. Fields whose positions differ by numbers alone share the
-/// monomials (r - r_0)^alpha, and sums of such fields become one operation, so that the polynomials
-/// of all forces are summed before anything is multiplied. Values that only such positions needed
-/// for their slices keep their constant terms. A list without fields is returned as it is.
+/// up to the order (at least 1), where the coefficients c come from the LocalField, and each
+/// monomial belongs to the last of its coordinates. The terms of the operation are the coordinates
+/// that move, and its products tell the rest. Their factors d^beta, of degrees below the order, are
+/// operations of their own. All fields whose positions differ by numbers share them, and sums of
+/// such fields become one operation, so that the polynomials of all forces are summed before
+/// anything is multiplied. A list without fields is returned as it is.
 OperationList expand_fields(const OperationList& list, int order,
                             FieldMotion motion = FieldMotion::with_variables);
 
