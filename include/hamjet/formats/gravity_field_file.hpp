@@ -76,9 +76,9 @@ struct HarmonicChoice {
   int degree = 0;  ///< at least 2
   int order = 0;   ///< at most the degree
   /// The tide system of the result; absent: the file's own.
-  std::optional<TideSystem> tide_system;
+  std::optional<TideSystem> tide_system = {};
   /// What the user says of the file; needed where the file says neither tide_free nor zero_tide.
-  std::optional<TideSystem> tide_system_of_file;
+  std::optional<TideSystem> tide_system_of_file = {};
   /// Gives the epoch. It is called once, and only if a coefficient varies with time.
   std::function<std::optional<Epoch>()> epoch = {};
 };
