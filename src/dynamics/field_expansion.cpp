@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,9 @@ class FieldExpansion {
   }
 
  private:
+  /// The parts of a sum of fields.
+  using MergedKey = std::vector<
+      std::tuple<const LocalField*, std::array<std::size_t, 3>, std::array<int, 3>, Extended>>;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   /// Fields whose positions have equal deviations.
@@ -177,6 +181,17 @@ class FieldExpansion {
     return add(std::move(o));
   }
 
+  /// The place in `place_` of the sum of fields of a group.
+  std::size_t merged_field(std::size_t group, std::vector<FieldPart> parts) {
+    MergedKey key;
+    for (const FieldPart& part : parts) {
+      key.emplace_back(part.field.get(), part.position, part.orders, part.factor);
+    }
+    const auto [known, is_new] = merged_.try_emplace(std::move(key), place_.size());
+    if (is_new) place_.push_back(add_field(group, placed(std::move(parts))));
+    return known->second;
+  }
+
   /// Puts one field in the place of all terms of a sum that are fields of one group.
   void merge_fields(Operation& o) {
     std::map<std::size_t, std::vector<FieldPart>> parts;
@@ -201,8 +216,10 @@ class FieldExpansion {
         kept.push_back(term);
       } else if (!is_added[group]) {
         is_added[group] = true;
-        place_.push_back(add_field(group, placed(parts[group])));
-        kept.push_back({place_.size() - 1, 1});
+        // Multiples of one sum are one operation.
+        const Extended scale = parts[group][0].factor;
+        for (FieldPart& part : parts[group]) part.factor /= scale;
+        kept.push_back({merged_field(group, std::move(parts[group])), scale});
       }
     }
     o.terms = std::move(kept);
@@ -215,6 +232,7 @@ class FieldExpansion {
       place_;  ///< of each value of the list, and of merged fields, in the new one
   std::vector<std::size_t> group_of_;  ///< of each field of the list
   std::vector<Group> groups_;
+  std::map<MergedKey, std::size_t> merged_;
   std::vector<Operation> operations_;
 };
 

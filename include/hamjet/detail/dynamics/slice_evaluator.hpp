@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -55,6 +56,7 @@ class SliceEvaluator {
     remainders_.assign(working_order >= 2 ? list.outputs().size() * stride_ : 0, T(Real(0)));
     scratch_.assign(stride_, T(Real(0)));
     for (const Operation& o : list_->operations()) constants_.push_back(convert<Real>(o.constant));
+    for (std::size_t i = list_->first_series_value(); i < values; ++i) steps_.push_back(step_of(i));
     set_schedules();
     if (list.has_time()) {
       set_time(T(Real(std::numeric_limits<double>::quiet_NaN())));
@@ -98,16 +100,12 @@ class SliceEvaluator {
   /// Evaluates the constant terms and the gradients of the outputs.
   void evaluate_constant_terms() {
     evaluate_constant_values();
-    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
-      set_linear_part(i, list_->operations()[i]);
-    }
+    for (const Step& step : steps_) set_linear_part(step);
     propagation_.set_gradients();
   }
   /// Evaluates the constant terms of all values, without gradients.
   void evaluate_constant_values() {
-    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
-      evaluate_constant_term(i, list_->operations()[i]);
-    }
+    for (const Step& step : steps_) evaluate_constant_term(step);
   }
 
   /// Forms the remainders r_d. It must be called once for each d = 1 to the working order, in this
@@ -157,6 +155,21 @@ class SliceEvaluator {
   }
 
  private:
+  /// What the loops over the operations need of each.
+  struct Step {
+    OperationCode code;
+    bool has_sums;
+    std::uint32_t value;
+    std::uint32_t u;
+    std::uint32_t v;
+  };
+
+  Step step_of(std::size_t i) const {
+    const Operation& o = list_->operations()[i];
+    const auto place = [](std::size_t value) { return static_cast<std::uint32_t>(value); };
+    return {o.code, list_->has_sums(i), place(i), place(o.u), place(o.v)};
+  }
+
   T* value(std::size_t i) { return slices_.data() + i * stride_; }
   const T* value(std::size_t i) const { return slices_.data() + i * stride_; }
 
@@ -164,12 +177,23 @@ class SliceEvaluator {
   void evaluate_numbers() {
     for (auto& [function, values] : time_values_) values.clear();
     for (std::size_t i = list_->inputs(); i < list_->first_series_value(); ++i) {
-      evaluate_constant_term(i, list_->operations()[i]);
+      evaluate_constant_term(step_of(i));
     }
   }
 
+  // What is rare stays out of the loops over the operations, which would be slower with it.
+
+  [[gnu::noinline]] T field_value(std::size_t i) {
+    return fields_.evaluate(i, [this](std::size_t k) -> const T& { return *value(k); });
+  }
+  [[gnu::noinline]] void set_field_factors(std::size_t i) {
+    fields_.evaluate_terms(
+        i, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
+        [&](std::size_t term, const T& factor) { propagation_.factor(i, term) = factor; });
+  }
+
   /// A component of a function of the time; a function is asked once for all its components.
-  T time_value(const Operation& o) {
+  [[gnu::noinline]] T time_value(const Operation& o) {
     using Lanes = TimeLanes<T, Real>;
     using Number = typename Lanes::Number;
     constexpr std::size_t lanes = Lanes::count();
@@ -191,7 +215,8 @@ class SliceEvaluator {
     return values[o.component];
   }
 
-  void evaluate_constant_term(std::size_t i, const Operation& o) {
+  void evaluate_constant_term(const Step& o) {
+    const std::size_t i = o.value;
     using std::cos;
     using std::exp;
     using std::log;
@@ -202,15 +227,9 @@ class SliceEvaluator {
     switch (o.code) {
       case OperationCode::input:
         break;
-      case OperationCode::linear: {
-        T sum(constants_[i]);
-        for (std::size_t k = 0; k < o.terms.size(); ++k) {
-          sum = SlicePropagation<T, Real>::add_product(sum, propagation_.factor(i, k),
-                                                       *value(o.terms[k].value));
-        }
-        w = sum;
+      case OperationCode::linear:
+        w = propagation_.linear_value(i, constants_[i], slices_.data(), stride_);
         break;
-      }
       case OperationCode::product:
         w = u * v;
         break;
@@ -237,10 +256,10 @@ class SliceEvaluator {
         w = T(cos(u));
         break;
       case OperationCode::time_function:
-        w = time_value(o);
+        w = time_value(list_->operations()[i]);
         break;
       case OperationCode::field:
-        w = fields_.evaluate(i, [this](std::size_t k) -> const T& { return *value(k); });
+        w = field_value(i);
         break;
       case OperationCode::deviation_product:
         break;  // its constant term is 0
@@ -249,7 +268,8 @@ class SliceEvaluator {
 
   /// Sets the factors with which the slices of a value's operands enter its own slice, and the
   /// scale of its sums. The constant terms of all values must be known.
-  void set_linear_part(std::size_t i, const Operation& o) {
+  void set_linear_part(const Step& o) {
+    const std::size_t i = o.value;
     const T& u = *value(o.u);
     const T& w = *value(i);
     switch (o.code) {
@@ -259,9 +279,7 @@ class SliceEvaluator {
       case OperationCode::deviation_product:
         break;
       case OperationCode::field:
-        fields_.evaluate_terms(
-            i, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
-            [&](std::size_t term, const T& factor) { propagation_.factor(i, term) = factor; });
+        set_field_factors(i);
         break;
       case OperationCode::product:
         propagation_.factor(i, 0) = *value(o.v);
@@ -298,13 +316,12 @@ class SliceEvaluator {
   }
 
   void form_sums(int d) {
-    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
-      form_sums(i, list_->operations()[i], d);
-    }
+    for (const Step& step : steps_) form_sums(step, d);
   }
 
   /// Forms the sums of degree d of a nonlinear operation.
-  void form_sums(std::size_t i, const Operation& o, int d) {
+  void form_sums(const Step& o, int d) {
+    const std::size_t i = o.value;
     const SeriesSpace& space = *space_;
     T* w = value(i);
     const T* u = value(o.u);
@@ -315,10 +332,10 @@ class SliceEvaluator {
       case OperationCode::field:
         break;
       case OperationCode::deviation_product:
-        form_deviation_product(i, o, d);
+        form_deviation_product(i, list_->operations()[i], d);
         break;
       case OperationCode::product:
-        if (!list_->has_sums(i)) break;
+        if (!o.has_sums) break;
         interior_product(space, d, u, value(o.v), w);
         count_product(d);
         break;
@@ -372,7 +389,7 @@ class SliceEvaluator {
     }
   }
 
-  void form_deviation_product(std::size_t i, const Operation& o, int d) {
+  [[gnu::noinline]] void form_deviation_product(std::size_t i, const Operation& o, int d) {
     const int lowest = o.lowest[0] + o.lowest[1];
     if (d < lowest) return;
     const ProductSchedule& schedule = *schedules_[i][static_cast<std::size_t>(d - lowest)];
@@ -403,6 +420,7 @@ class SliceEvaluator {
   std::vector<T> remainders_;  ///< one series per output
   std::vector<T> scratch_;
   std::vector<Real> constants_;
+  std::vector<Step> steps_;  ///< of the operations that are no numbers
   std::vector<std::vector<const ProductSchedule*>> schedules_;  ///< of products of deviations
   std::map<std::pair<const TimeFunction*, std::size_t>, std::vector<T>> time_values_;
   SeriesWork work_;

@@ -45,6 +45,7 @@ class SlicePropagation {
       while (end > first_factor_.back() && list.is_number(operands_[end - 1])) --end;
       end_factor_.push_back(end);
     }
+    first_factor_.push_back(operands_.size());
     gradients_.assign(scales_.size() * list.variables(), T(Real(0)));
     for (std::size_t j = 0; j < list.variables(); ++j) gradient_of(j, j) = T(Real(1));
     if (working_order >= 2) set_groups(working_order);
@@ -55,6 +56,15 @@ class SlicePropagation {
   /// operations that are not linear.
   T& factor(std::size_t value, std::size_t operand) {
     return factors_[first_factor_[value] + operand];
+  }
+  /// The constant term of a sum, from those of its operands; value k stands at slices + k stride.
+  T linear_value(std::size_t value, const Real& constant, const T* slices,
+                 std::size_t stride) const {
+    T sum(constant);
+    for (std::size_t f = first_factor_[value]; f < first_factor_[value + 1]; ++f) {
+      sum = add_product(sum, factors_[f], slices[operands_[f] * stride]);
+    }
+    return sum;
   }
   /// The scale of a nonlinear operation's sums; 1 unless the caller writes another one.
   T& scale(std::size_t value) { return scales_[value]; }
@@ -354,7 +364,7 @@ class SlicePropagation {
 
   const OperationList* list_;
   std::vector<T> scales_;                  ///< by value
-  std::vector<std::size_t> first_factor_;  ///< by value
+  std::vector<std::size_t> first_factor_;  ///< by value, and one entry for the end
   std::vector<std::size_t> end_factor_;    ///< by value, behind its last operand that has slices
   std::vector<std::size_t> operands_;
   std::vector<T> factors_;
