@@ -10,9 +10,10 @@ D- = d/dx - i d/dy, F_nm = (R/r)^(n+1) P_nm(sin phi) exp(i m lambda), not normal
   Dz F_nm = -(n-m+1) F_(n+1,m) / R.
 
 Checked before anything is printed: along two lines through each point, the same series comes from
-the recursions of Legendre functions in univariate power series, to 1e-45 of the largest coefficient of its degree.
+the recursions of Legendre functions in univariate power series, to 1e-45 of the largest coefficient
+of its degree.
 
-Needs mpmath (Debian: python3-mpmath). About five minutes.
+Needs mpmath (Debian: python3-mpmath). About a minute and a half.
 """
 
 import json
