@@ -26,6 +26,7 @@ OperationList::OperationList(std::size_t inputs, std::vector<Operation> operatio
         break;
       case OperationCode::product:
       case OperationCode::quotient:
+      case OperationCode::angle:
         mask = dependencies_[o.u] | dependencies_[o.v];
         affine = false;
         break;

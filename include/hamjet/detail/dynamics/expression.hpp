@@ -51,6 +51,11 @@ class Expression {
   friend Expression log(const Expression& a);
   friend Expression sin(const Expression& a);
   friend Expression cos(const Expression& a);
+  friend Expression sinh(const Expression& a);
+  friend Expression cosh(const Expression& a);
+  /// The angle of a point of the unit circle, from its sine and cosine: in (-pi, pi] where it
+  /// starts, and analytic everywhere. The caller sees to it that sine^2 + cosine^2 = 1.
+  friend Expression angle(const Expression& sine, const Expression& cosine);
 
  private:
   friend class Recorder;
@@ -60,6 +65,18 @@ class Expression {
   std::size_t value_ = 0;
   Extended constant_ = 0;
 };
+
+// Functions made of those that are recorded; each is exact, and as accurate as its derivatives are
+// bounded.
+Expression tan(const Expression& a);
+Expression tanh(const Expression& a);
+/// The inverse functions are angles: of the sine a and the cosine sqrt((1 - a)(1 + a)), or the other
+/// way round; of a / sqrt(1 + a^2) and 1 / sqrt(1 + a^2).
+Expression asin(const Expression& a);
+Expression acos(const Expression& a);
+Expression atan(const Expression& a);
+/// The angle of the point (x, y) other than the origin.
+Expression atan2(const Expression& y, const Expression& x);
 
 /// Collects the operations done to Expressions. It cannot be copied, because Expressions point to
 /// it.
@@ -76,8 +93,12 @@ class Recorder {
   Expression linear(const Extended& constant, const std::vector<LinearTerm>& terms);
   Expression operation(OperationCode code, std::size_t u, std::size_t v = 0,
                        const Extended& constant = 0);
-  /// Records sine and cosine as a pair, because their series need each other.
-  std::pair<Expression, Expression> sine_cosine(std::size_t u);
+  /// Records sine and cosine as a pair, because their series need each other; `sine` may be that of
+  /// hyperbolic ones.
+  std::pair<Expression, Expression> sine_cosine(std::size_t u,
+                                                OperationCode sine = OperationCode::sine);
+  /// A constant as a value of the list, for an operation that needs one.
+  Expression constant_value(const Extended& constant);
 
   /// The list that computes these outputs, without operations that none of them needs.
   OperationList finish(std::span<const Expression> outputs) const;

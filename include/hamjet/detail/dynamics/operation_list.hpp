@@ -21,7 +21,21 @@ enum class OperationCode : std::uint8_t {
   logarithm,    ///< log u
   sine,         ///< sin u; v is the cosine of the same u
   cosine,       ///< cos u; v is the sine of the same u, and stands just before
+  hyperbolic_sine,    ///< sinh u; v is the hyperbolic cosine of the same u
+  hyperbolic_cosine,  ///< cosh u; v is the hyperbolic sine of the same u, and stands just before
+  angle,              ///< atan2(u, v) of a sine u and a cosine v, where u^2 + v^2 = 1
 };
+
+/// Whether an operation computes its value from two operands, u and v.
+constexpr bool has_two_operands(OperationCode code) {
+  return code == OperationCode::product || code == OperationCode::quotient ||
+         code == OperationCode::angle;
+}
+
+/// Whether an operation is one of a sine and a cosine, whose series need each other.
+constexpr bool is_of_pair(OperationCode code) {
+  return code >= OperationCode::sine && code <= OperationCode::hyperbolic_cosine;
+}
 
 /// One term of a linear operation.
 struct LinearTerm {

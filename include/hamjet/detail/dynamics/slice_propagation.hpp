@@ -42,6 +42,8 @@ class SlicePropagation {
         factors_.push_back(factor);
         is_operand[operand] = true;
       });
+      // The sums of each of a pair need the other's slices.
+      if (is_of_pair(o.code)) is_operand[o.v] = true;
     }
     first_factor_.push_back(operands_.size());
     gradients_.assign(scales_.size() * list.inputs(), T(Real(0)));
@@ -263,6 +265,7 @@ class SlicePropagation {
         return;
       case OperationCode::product:
       case OperationCode::quotient:
+      case OperationCode::angle:
         take(o.u, T(Real(0)));
         take(o.v, T(Real(0)));
         return;
