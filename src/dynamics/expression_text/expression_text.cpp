@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 #include <optional>
 #include <utility>
@@ -170,12 +171,13 @@ class ParsedFunction {
       throw ExpressionTextError(
           path,
           fmt::format("a name that is taken, got {}, must be another one: {} {} has this name",
-                      name, name == pi_name ? "the number" : "the function", name));
+                      io::printable(name), name == pi_name ? "the number" : "the function", name));
     }
     const auto [place, is_new] = names_.try_emplace(name, &parts_.back());
     if (is_new) return;
     throw ExpressionTextError(
-        path, fmt::format("a name given twice, got {}, must be another one: {} has this name", name,
+        path, fmt::format("a name given twice, got {}, must be another one: {} has this name",
+                          io::printable(name),
                           place->second->kind == Part::Kind::variable ? "a variable"
                                                                       : place->second->path));
   }
@@ -292,15 +294,20 @@ class ParsedFunction {
 
   static Expression number(const Part& part, const ExpressionToken& token) {
     const std::string digits(part.text_of(token));
-    const Extended value(digits);
-    const double rounded = static_cast<double>(value);
-    const bool is_lost =
-        rounded == 0 &&
-        digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") != digits.npos;
-    if (!std::isfinite(rounded) || is_lost) {
+    constexpr std::size_t longest = 400;
+    if (digits.size() > longest) {
+      part.fail(token, "too long a number", fmt::format("must have at most {} digits", longest));
+    }
+    if (digits.substr(0, digits.find_first_of("eE")).find_first_of("123456789") == digits.npos) {
+      return 0;
+    }
+    // The exponent is judged before powers of ten are formed in full.
+    double rounded = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), rounded);
+    if (read.ec != std::errc()) {
       part.fail(token, "out of range", "must be a number that binary64 can hold");
     }
-    return value;
+    return Extended(digits);
   }
 
   Expression name(const Part& part, const ExpressionToken& token) const {
@@ -321,7 +328,12 @@ class ParsedFunction {
     }
     std::vector<std::string_view> candidates = all_names();
     candidates.push_back(pi_name);
-    part.fail(token, "unknown name", io::suggestion(text, candidates));
+    constexpr std::size_t most_named = 12;
+    const bool is_short = candidates.size() <= most_named || io::nearest(text, candidates);
+    part.fail(token, "unknown name",
+              is_short
+                  ? io::suggestion(text, candidates)
+                  : fmt::format("must be one of the {} names of the system", candidates.size()));
   }
 
   std::vector<std::string_view> all_names() const {

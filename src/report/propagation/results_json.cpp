@@ -219,6 +219,7 @@ std::string summary_json(const PropagationResult& result) {
                {"nominal_file", nominal_file_json(scene)},
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
+  if (!scene.system.own_names.empty()) json["state_names"] = scene.system.own_names;
   if (result.reference) {
     const ReferenceResult& reference = *result.reference;
     std::vector<double> state(scene.nominal.size(), 0);
