@@ -12,6 +12,7 @@
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/flow_box.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "hamjet/dynamics/expression_text.hpp"
 #include "hamjet/dynamics/mean_elements.hpp"

@@ -25,8 +25,14 @@ std::string text(const SeriesSpace& space) {
 /// Builds the schedule of one degree of a space whose monomials are already listed.
 class SeriesSpace::ScheduleBuilder {
  public:
-  explicit ScheduleBuilder(const SeriesSpace& space)
+  /// Slices below the lowest degrees of the factors are left out, in a directed schedule unless the
+  /// factors are one series.
+  explicit ScheduleBuilder(const SeriesSpace& space, int lowest_a = 1, int lowest_b = 1,
+                           bool is_directed = false)
       : space_(space),
+        lowest_a_(lowest_a),
+        lowest_b_(lowest_b),
+        is_directed_(is_directed),
         blocked_(space.variables() >= 3 ? 3 : 0),
         outer_(space.variables() - blocked_),
         exponents_(outer_),
@@ -34,7 +40,8 @@ class SeriesSpace::ScheduleBuilder {
         rest_(outer_) {}
 
   ProductSchedule build(int degree) {
-    if (space_.is_uncoupled()) return build_uncoupled(degree);
+    if (space_.is_uncoupled())
+      return build_uncoupled(degree);  // see form_uncoupled for lowest degrees
     ProductSchedule schedule;
     const int lowest = blocked_ > 0 ? 0 : degree;
     for (int outer_degree = lowest; outer_degree <= degree; ++outer_degree) {
@@ -110,8 +117,22 @@ class SeriesSpace::ScheduleBuilder {
     schedule.outputs.push_back(output);
     for (int m_x = 0; 2 * m_x <= m; ++m_x) {
       add_run(schedule, degree, m_x, m - m_x);
+      for (auto* pairs : {&forwards_, &backwards_}) {
+        if (!is_directed_) continue;
+        schedule.pairs.insert(schedule.pairs.end(), pairs->begin(), pairs->end());
+        pairs->clear();
+        if (pairs == &forwards_) {
+          schedule.run_ends.push_back(static_cast<std::uint32_t>(schedule.pairs.size()));
+        }
+      }
       schedule.run_ends.push_back(static_cast<std::uint32_t>(schedule.pairs.size()));
     }
+  }
+
+  static void add_directed(std::vector<ProductSchedule::Pair>& pairs, ProductSchedule& schedule,
+                           std::uint32_t x, std::uint32_t y, std::size_t cost) {
+    pairs.push_back({x, y});
+    schedule.multiply_adds += cost;
   }
 
   /// Adds all splits of the outer exponents into two factors, for fixed inner degrees m_x <= m_y.
@@ -124,7 +145,16 @@ class SeriesSpace::ScheduleBuilder {
         for (std::size_t i = 0; i < outer_; ++i) rest_[i] = exponents_[i] - part_[i];
         const std::uint32_t x = offset(part_, degree_x);
         const std::uint32_t y = offset(rest_, degree - degree_x);
-        if (x == y) {
+        const int degree_y = degree - degree_x;
+        if (is_directed_) {
+          if (degree_x >= lowest_a_ && degree_y >= lowest_b_)
+            add_directed(forwards_, schedule, x, y, cost);
+          if (m_x < m_y && degree_x >= lowest_b_ && degree_y >= lowest_a_) {
+            add_directed(backwards_, schedule, x, y, cost);
+          }
+        } else if (degree_x < lowest_a_ || degree_y < lowest_a_) {
+          // The series has no such slices.
+        } else if (x == y) {
           schedule.outputs.back().diagonal = x;
           schedule.multiply_adds += cost;
           schedule.square_multiply_adds += cost;
@@ -142,6 +172,11 @@ class SeriesSpace::ScheduleBuilder {
   }
 
   const SeriesSpace& space_;
+  int lowest_a_;
+  int lowest_b_;
+  bool is_directed_;
+  std::vector<ProductSchedule::Pair> forwards_;
+  std::vector<ProductSchedule::Pair> backwards_;
   std::size_t blocked_;
   std::size_t outer_;
   /// Exponents of the outer variables in the block that is being added.
@@ -149,6 +184,18 @@ class SeriesSpace::ScheduleBuilder {
   std::vector<int> part_;
   std::vector<int> rest_;
 };
+
+const ProductSchedule& SeriesSpace::products_above(int degree, int lowest_a, int lowest_b,
+                                                   bool is_square) const {
+  const std::lock_guard lock(has_products_above_);
+  const std::array<int, 4> key = {degree, lowest_a, lowest_b, is_square ? 1 : 0};
+  auto place = products_above_.find(key);
+  if (place == products_above_.end()) {
+    ScheduleBuilder builder(*this, lowest_a, lowest_b, !is_square);
+    place = products_above_.emplace(key, builder.build(degree)).first;
+  }
+  return place->second;
+}
 
 double SeriesSpace::monomial_count(std::size_t variables, int order) {
   double result = 1;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/concurrent_tasks.hpp"
 #include "../studies/checks/flight_checks.hpp"
 #include "../studies/formation/deputy_flows.hpp"
@@ -59,6 +60,8 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   set_rounding(result, six_numbers(scene.nominal), rounding_of_flights(problem, scene.duration));
   result.told = told_factors(scene);
   chief.duration = scene.duration;
+  chief.start_time = scene.start_time;
+  chief.is_autonomous = is_autonomous(*problem.system);
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());
   if (result.stored_end.empty()) result.stored_end = chief.nominal_final;

@@ -65,7 +65,7 @@ ZonalGravity field_of(const io::StoredJet& stored, const Scene* scene, const std
   // integration of any use loses is less than what another harmonic would move.
   constexpr double most = 1e-7;
   const std::vector<double> flown =
-      exact_flow(zonal_gravity(field), stored.nominal_initial, stored.duration);
+      exact_flow(zonal_gravity(field), stored.nominal_initial, stored.start_time, stored.duration);
   const auto position = [](const std::vector<double>& state) {
     return Eigen::Vector3d(state.data());
   };

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "../algebra/other_units.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "hamjet/algebra/composition.hpp"
+#include "hamjet/studies/propagation.hpp"
 
 namespace hamjet::cli {
 namespace {
@@ -32,12 +34,22 @@ bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b)
   return true;
 }
 
+/// Whether a jet starts when the scene does, where that matters.
+bool starts_as(const io::StoredJet& stored, const Scene& scene) {
+  if (stored.is_autonomous && is_autonomous(make_system(scene))) return true;
+  constexpr double rounding = 1e-14;
+  const double start_s = stored.start_time.in<double>() * stored.units.time_s;
+  const double scene_start_s = scene.start_time.in<double>() * scene.units.time_s;
+  return std::abs(start_s - scene_start_s) <= rounding * std::abs(start_s);
+}
+
 }  // namespace
 
 bool is_about_chief(const io::StoredJet& stored, const Scene& scene) {
   if (stored.model != scene.system.model || !are_same(stored.units, told_units(scene))) {
     return false;
   }
+  if (!starts_as(stored, scene)) return false;
   if (are_same(stored.units, scene.units)) return stored.nominal_initial == scene.nominal;
   return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial);
 }

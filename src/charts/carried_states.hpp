@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hamjet/charts/canonical_chart.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -14,9 +15,7 @@ template <class Real>
 SixNumbers<Series<Real>> carried(const SharedSystem& crossing, const SixNumbers<Series<Real>>& z,
                                  const Series<Real>& time) {
   const SpacePointer& space = time.space_pointer();
-  FlowProblem<Real> flow;
-  flow.system = crossing;
-  flow.space = space;
+  FlowProblem<Real> flow{crossing, space, {}, {}, ClockTime::epoch()};
   // The variables of a flow that goes on from a jet are only counted.
   flow.variables.assign(space->variables(), 0);
   flow.duration = Real(1);

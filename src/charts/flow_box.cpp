@@ -92,10 +92,10 @@ FlowBoxPropagation<Real>::FlowBoxPropagation(const ZonalGravity& field, ChartNam
       settings_(settings),
       chart_(chart),
       start_(std::make_shared<const FlowSection<Real>>(field, chart, chief)),
+      flow_{time_scaled(zonal_gravity(field)), {}, {}, {}, ClockTime::epoch()},
       periods_(start_->periods(SeriesSpace::create(start_->variables(), order))) {
   const SpacePointer& space = periods_.space_pointer();
   const auto z = start_->states(space);
-  flow_.system = time_scaled(zonal_gravity(field));
   flow_.space = space;
   flow_.symmetry = FlowSymmetry::none;
   // Which states each variable moves follows from the initial jet; where sizes of lines are chosen,
@@ -157,6 +157,7 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
   for (const auto& component : jet) flow_.initial_state.push_back(component[0]);
   IntegrationStatistics statistics;
   jet = integrate_gauss<Real>(flow_, settings_, statistics);
+  flow_.start_time = flow_.start_time + flow_.duration;
   add_integration(total_, statistics);
   reached_ = time;
   return map_of_flights<Real>(

@@ -225,7 +225,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
     void fly_to_section(std::span<Search> searches) {
       for (Search& search : searches) begin(search);
       for (std::size_t lane = 0; lane < block; ++lane) {
-        taylor.set_state(lane, searches[lane < searches.size() ? lane : 0].base);
+        taylor.set_state(lane, ClockTime::epoch(),
+                         searches[lane < searches.size() ? lane : 0].base);
       }
       bool is_over = false;
       while (!is_over) {
@@ -242,7 +243,7 @@ class FlowBoxDeputyFlow : public DeputyFlow {
           Search& search = searches[lane];
           if (search.is_over) continue;
           go_on(search, lane);
-          if (search.has_moved) taylor.set_state(lane, search.base);
+          if (search.has_moved) taylor.set_state(lane, ClockTime::epoch(), search.base);
           is_over = is_over && search.is_over;
         }
       }
@@ -306,7 +307,8 @@ class FlowBoxDeputyFlow : public DeputyFlow {
         std::copy_n(state.begin(), 6, &states[6 * k]);
         if (!std::isfinite(times[k])) times[k] = 0;
       }
-      taylor.advance(std::span(states).first(6 * count), std::span(times).first(count));
+      taylor.advance(std::span(states).first(6 * count), ClockTime::epoch(),
+                     std::span(times).first(count));
       for (std::size_t k = 0; k < count; ++k) {
         for (std::size_t i = 0; i < 6; ++i) {
           deviations[k][i] = states[6 * k + i] - flow.chief_end()[i];

@@ -11,18 +11,18 @@ namespace {
 
 /// The rows of M^-1 if all q' are linear functions of p alone with constant coefficients.
 std::optional<std::vector<Extended>> inverse_mass(const OperationList& field) {
-  const std::size_t n = field.inputs() / 2;
+  const std::size_t n = field.variables() / 2;
   std::vector<Extended> matrix(n * n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const Operation& o = field.operations()[field.outputs()[i]];
-    if (o.code == OperationCode::input && o.u >= n) {
+    if (o.code == OperationCode::input && o.u >= n && o.u < 2 * n) {
       matrix[i * n + o.u - n] = 1;
       continue;
     }
     if (o.code != OperationCode::linear || o.constant != 0) return std::nullopt;
     for (const LinearTerm& term : o.terms) {
       const Operation& from = field.operations()[term.value];
-      if (from.code != OperationCode::input || from.u < n) return std::nullopt;
+      if (from.code != OperationCode::input || from.u < n || from.u >= 2 * n) return std::nullopt;
       matrix[i * n + from.u - n] = term.coefficient;
     }
   }
@@ -30,7 +30,7 @@ std::optional<std::vector<Extended>> inverse_mass(const OperationList& field) {
 }
 
 std::optional<SecondOrderForm> second_order_form(const OperationList& field) {
-  const std::size_t n = field.inputs() / 2;
+  const std::size_t n = field.variables() / 2;
   const auto matrix = inverse_mass(field);
   if (!matrix) return std::nullopt;
   for (std::size_t i = n; i < 2 * n; ++i) {
@@ -45,15 +45,27 @@ std::optional<SecondOrderForm> second_order_form(const OperationList& field) {
 
 /// The vector field of z' = J grad H.
 OperationList hamiltonian_field(const OperationList& hamiltonian) {
-  const std::size_t n = hamiltonian.inputs() / 2;
+  const std::size_t n = hamiltonian.variables() / 2;
   const OperationList grad = gradient(hamiltonian);
-  return record(2 * n, [&](std::span<const Expression> z) {
-    const std::vector<Expression> values = replay(grad, z);
-    std::vector<Expression> field;
-    for (std::size_t i = 0; i < n; ++i) field.push_back(values[grad.outputs()[n + i]]);
-    for (std::size_t i = 0; i < n; ++i) field.push_back(-values[grad.outputs()[i]]);
-    return field;
-  });
+  return record(
+      hamiltonian.inputs(),
+      [&](std::span<const Expression> z) {
+        const std::vector<Expression> values = replay(grad, z);
+        std::vector<Expression> field;
+        for (std::size_t i = 0; i < n; ++i) field.push_back(values[grad.outputs()[n + i]]);
+        for (std::size_t i = 0; i < n; ++i) field.push_back(-values[grad.outputs()[i]]);
+        return field;
+      },
+      hamiltonian.has_time());
+}
+
+/// The shortest wave of the fields in a list.
+int waves_of(const OperationList& list) {
+  int waves = 0;
+  for (const Operation& o : list.operations()) {
+    for (const FieldPart& part : o.parts) waves = std::max(waves, part.field->waves_on_a_circle());
+  }
+  return waves;
 }
 
 /// Indices of the inputs (or outputs) q_i and p_i of the kept degrees of freedom.
@@ -67,23 +79,57 @@ std::vector<std::size_t> phase_space_indices(std::span<const std::size_t> kept, 
 
 DynamicalSystem make_system(std::string name, OperationList hamiltonian,
                             std::optional<OperationList> vector_field) {
-  const std::size_t dimension = hamiltonian.inputs();
+  const std::size_t dimension = hamiltonian.variables();
   if (dimension == 0 || dimension % 2 != 0 || hamiltonian.outputs().size() != 1) {
     throw Error(ErrorKind::usage,
-                "system '" + name + "': a Hamiltonian has 2n inputs (q, p) and one output");
+                "system '" + name +
+                    "': a Hamiltonian has 2n inputs (q, p), perhaps the time, and "
+                    "one output");
   }
   OperationList field = vector_field ? std::move(*vector_field) : hamiltonian_field(hamiltonian);
-  if (field.inputs() != dimension || field.outputs().size() != dimension) {
-    throw Error(ErrorKind::usage,
-                "system '" + name + "': a vector field has 2n inputs and 2n outputs");
+  if (field.variables() != dimension || field.outputs().size() != dimension) {
+    throw Error(ErrorKind::usage, "system '" + name +
+                                      "': a vector field has 2n inputs, perhaps the time, and 2n "
+                                      "outputs");
+  }
+  if (!hamiltonian.depends_on_time() && !field.depends_on_time()) {
+    hamiltonian = at_time(hamiltonian, 0);
+    field = at_time(field, 0);
+  } else {
+    hamiltonian = with_time(hamiltonian);
+    field = with_time(field);
   }
   DynamicalSystem system;
   system.name = std::move(name);
   system.degrees_of_freedom = dimension / 2;
   system.second_order = second_order_form(field);
+  system.waves_on_a_circle = std::max(waves_of(hamiltonian), waves_of(field));
   system.hamiltonian = std::move(hamiltonian);
   system.vector_field = std::move(field);
   return system;
+}
+
+std::optional<OperationList> conserved_list(const DynamicalSystem& system) {
+  switch (system.conserved_quantity()) {
+    case ConservedQuantity::none:
+      return std::nullopt;
+    case ConservedQuantity::energy:
+      return system.hamiltonian;
+    case ConservedQuantity::jacobi_integral:
+      break;
+  }
+  const std::size_t n = system.degrees_of_freedom;
+  return record(
+      2 * n + 1,
+      [&](std::span<const Expression> z) {
+        Expression momentum(0);
+        for (const auto& [i, j] : system.uniform_rotation->planes) {
+          momentum += z[i] * z[n + j] - z[j] * z[n + i];
+        }
+        const Expression energy = recorded_outputs(system.hamiltonian, z)[0];
+        return std::vector<Expression>{energy - system.uniform_rotation->rate * momentum};
+      },
+      true);
 }
 
 std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system,
@@ -126,6 +172,20 @@ DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const s
       make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
                   restrict_list(system.vector_field, indices, indices));
   restricted.waves_on_a_circle = system.waves_on_a_circle;
+  if (system.uniform_rotation) {
+    UniformRotation rotation{{}, system.uniform_rotation->rate};
+    for (const auto& [i, j] : system.uniform_rotation->planes) {
+      const auto first = std::find(kept.begin(), kept.end(), i);
+      const auto second = std::find(kept.begin(), kept.end(), j);
+      // Positions that are not kept are zero, so that a rotation of one of a plane alone is none.
+      if ((first == kept.end()) != (second == kept.end())) rotation.rate = 0;
+      if (first == kept.end() || second == kept.end()) continue;
+      rotation.planes.push_back({static_cast<std::size_t>(first - kept.begin()),
+                                 static_cast<std::size_t>(second - kept.begin())});
+    }
+    const bool is_kept = rotation.rate == system.uniform_rotation->rate;
+    if (is_kept && !restricted.is_autonomous()) restricted.uniform_rotation = std::move(rotation);
+  }
   // A rotation of the system is one of the subsystem if all coordinates that it turns are kept.
   for (const auto& [i, j] : system.rotated_planes) {
     const auto place = [&](std::size_t index) {

@@ -64,6 +64,11 @@ Expression operator/(const Expression& a, const Expression& b) {
     return scaled_sum(a, 1 / b.constant(), Expression(), 0);
   }
   if (a.is_constant()) return a * pow(b, Expression(-1));
+  const Recorder& recorder = common_recorder(a, b);
+  // With an inverse, a quotient with a number is a product with a number.
+  if (recorder.is_number(a.value()) != recorder.is_number(b.value())) {
+    return a * pow(b, Expression(-1));
+  }
   return common_recorder(a, b).operation(OperationCode::quotient, a.value(), b.value());
 }
 
@@ -118,7 +123,7 @@ Expression angle(const Expression& sine, const Expression& cosine) {
   }
   Recorder& recorder = common_recorder(sine, cosine);
   const auto value = [&](const Expression& a) {
-    return a.is_constant() ? recorder.constant_value(a.constant()).value() : a.value();
+    return a.is_constant() ? recorder.constant_value(a.constant()) : a.value();
   };
   const std::size_t u = value(sine);
   return recorder.operation(OperationCode::angle, u, value(cosine));
@@ -134,13 +139,74 @@ Expression atan2(const Expression& y, const Expression& x) {
   return angle(y * inverse_radius, x * inverse_radius);
 }
 
-Recorder::Recorder(std::size_t inputs) : inputs_(inputs) {
+Expression field_value(const std::shared_ptr<const LocalField>& field,
+                       const std::array<Expression, 3>& position,
+                       const std::array<int, 3>& orders) {
+  Recorder* recorder = nullptr;
+  for (const Expression& x : position) {
+    if (!x.is_constant()) recorder = x.recorder();
+  }
+  if (recorder == nullptr) {
+    const int degree = orders[0] + orders[1] + orders[2];
+    std::vector<Extended> coefficients(local_field_size(degree));
+    field->expand(1, &position[0].constant(), &position[1].constant(), &position[2].constant(),
+                  degree, coefficients.data());
+    Extended value = coefficients[field_monomial(orders[0], orders[1], orders[2])];
+    for (const int order : orders) {
+      for (int k = 2; k <= order; ++k) value *= k;
+    }
+    return value;
+  }
+  FieldPart part;
+  part.field = field;
+  part.orders = orders;
+  Operation o;
+  o.code = OperationCode::field;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Expression& x = position[i];
+    if (!x.is_constant() && x.recorder() != recorder) {
+      throw Error(ErrorKind::usage, "expressions of two recordings are combined");
+    }
+    part.position[i] = x.is_constant() ? recorder->constant_value(x.constant()) : x.value();
+  }
+  o.parts.push_back(std::move(part));
+  return {recorder, recorder->record(std::move(o))};
+}
+
+std::vector<Expression> time_values(const std::shared_ptr<const TimeFunction>& function,
+                                    const Expression& t) {
+  std::vector<Expression> values;
+  if (t.is_constant()) {
+    std::vector<Extended> numbers(function->components());
+    function->expand(t.constant(), 0, numbers.data());
+    for (const Extended& x : numbers) values.emplace_back(x);
+    return values;
+  }
+  if (!t.recorder()->is_time(t.value())) {
+    throw Error(ErrorKind::usage, "expression: a function of the time takes the time itself");
+  }
+  for (std::size_t c = 0; c < function->components(); ++c) {
+    values.push_back(t.recorder()->time_function(function, c, t.value()));
+  }
+  return values;
+}
+
+Recorder::Recorder(std::size_t inputs, bool has_time) : inputs_(inputs), has_time_(has_time) {
   for (std::size_t i = 0; i < inputs; ++i) {
     Operation o;
     o.code = OperationCode::input;
     o.u = i;
-    operations_.push_back(o);
+    append(std::move(o));
   }
+}
+
+void Recorder::append(Operation operation) {
+  bool is_number =
+      operation.code != OperationCode::input || (has_time_ && operation.u + 1 == inputs_);
+  for_each_operand(operation,
+                   [&](std::size_t operand) { is_number = is_number && is_number_[operand]; });
+  is_number_.push_back(is_number);
+  operations_.push_back(std::move(operation));
 }
 
 std::vector<Expression> Recorder::inputs() {
@@ -152,9 +218,20 @@ std::vector<Expression> Recorder::inputs() {
 std::size_t Recorder::record(Operation operation) {
   std::vector<std::pair<std::size_t, Extended>> terms;
   for (const LinearTerm& t : operation.terms) terms.emplace_back(t.value, t.coefficient);
-  const Key key{operation.code, operation.u, operation.v, operation.constant, std::move(terms)};
+  const void* object = operation.time_function.get();
+  std::array<std::size_t, 6> details = {operation.component};
+  if (!operation.parts.empty()) {
+    const FieldPart& part = operation.parts[0];
+    object = part.field.get();
+    for (std::size_t i = 0; i < 3; ++i) {
+      details[i] = part.position[i];
+      details[3 + i] = static_cast<std::size_t>(part.orders[i]);
+    }
+  }
+  const Key key{operation.code,   operation.u, operation.v, operation.constant,
+                std::move(terms), object,      details};
   const auto [place, is_new] = known_.try_emplace(key, operations_.size());
-  if (is_new) operations_.push_back(std::move(operation));
+  if (is_new) append(std::move(operation));
   return place->second;
 }
 
@@ -195,9 +272,19 @@ Expression Recorder::operation(OperationCode code, std::size_t u, std::size_t v,
   return {this, record(std::move(o))};
 }
 
-Expression Recorder::constant_value(const Extended& constant) {
+std::size_t Recorder::constant_value(const Extended& constant) {
   Operation o;
   o.constant = constant;
+  return record(std::move(o));
+}
+
+Expression Recorder::time_function(const std::shared_ptr<const TimeFunction>& function,
+                                   std::size_t component, std::size_t time) {
+  Operation o;
+  o.code = OperationCode::time_function;
+  o.u = time;
+  o.time_function = function;
+  o.component = component;
   return {this, record(std::move(o))};
 }
 
@@ -205,13 +292,13 @@ std::pair<Expression, Expression> Recorder::sine_cosine(std::size_t u, Operation
   // Sine and cosine are recorded one after the other, so that the number of each follows from the
   // other's.
   const auto cosine_code = static_cast<OperationCode>(static_cast<int>(sine_code) + 1);
-  const Key key{sine_code, u, 0, 0, {}};
+  const Key key{sine_code, u, 0, 0, {}, nullptr, {}};
   const auto known = known_.find(key);
   const std::size_t sine = known != known_.end() ? known->second : operations_.size();
   if (known == known_.end()) {
     known_.emplace(key, sine);
-    operations_.push_back({sine_code, u, sine + 1, 0, {}});
-    operations_.push_back({cosine_code, u, sine, 0, {}});
+    append({sine_code, u, sine + 1});
+    append({cosine_code, u, sine});
   }
   return {Expression(this, sine), Expression(this, sine + 1)};
 }
@@ -229,35 +316,7 @@ OperationList Recorder::finish(std::span<const Expression> outputs) const {
       roots.push_back(e.value());
     }
   }
-  std::vector<bool> needed(all.size(), false);
-  for (std::size_t i = 0; i < inputs_; ++i) needed[i] = true;
-  for (const std::size_t root : roots) needed[root] = true;
-  for (std::size_t i = all.size(); i-- > inputs_;) {
-    if (!needed[i]) continue;
-    const Operation& o = all[i];
-    for (const LinearTerm& term : o.terms) needed[term.value] = true;
-    if (o.code == OperationCode::linear) continue;
-    needed[o.u] = true;
-    if (is_of_pair(o.code) || has_two_operands(o.code)) needed[o.v] = true;
-  }
-  std::vector<std::size_t> number(all.size(), 0);
-  std::vector<Operation> kept;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (needed[i]) number[i] = next++;
-  }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!needed[i]) continue;
-    Operation o = all[i];
-    if (o.code != OperationCode::input && o.code != OperationCode::linear) {
-      o.u = number[o.u];
-      o.v = number[o.v];
-    }
-    for (LinearTerm& term : o.terms) term.value = number[term.value];
-    kept.push_back(std::move(o));
-  }
-  for (std::size_t& root : roots) root = number[root];
-  return {inputs_, std::move(kept), std::move(roots)};
+  return needed_operations(inputs_, std::move(all), std::move(roots), has_time_);
 }
 
 }  // namespace hamjet

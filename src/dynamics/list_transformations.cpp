@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
 #include <vector>
 
 #include "hamjet/detail/dynamics/expression.hpp"
@@ -39,6 +42,9 @@ Partials partial_derivatives(const Operation& o, std::span<const Expression> val
       return {sinh(u), 0};
     case OperationCode::angle:
       return {values[o.v], -u};
+    case OperationCode::time_function:  // its operand depends on no variable
+    case OperationCode::field:          // see for_each_field_derivative
+    case OperationCode::deviation_product:
     case OperationCode::input:
     case OperationCode::linear:
       break;
@@ -46,11 +52,55 @@ Partials partial_derivatives(const Operation& o, std::span<const Expression> val
   return {0, 0};
 }
 
+std::array<Expression, 3> position_of(const FieldPart& part, std::span<const Expression> values) {
+  return {values[part.position[0]], values[part.position[1]], values[part.position[2]]};
+}
+
+/// Calls add(operand, derivative) with the derivatives of a field by its position.
+template <class Add>
+void for_each_field_derivative(const Operation& o, std::span<const Expression> values,
+                               const Add& add) {
+  for (const FieldPart& part : o.parts) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<int, 3> orders = part.orders;
+      ++orders[i];
+      add(part.position[i],
+          part.factor * field_value(part.field, position_of(part, values), orders));
+    }
+  }
+}
+
+/// The list with other inputs, from which `inputs_of_list` makes its own, and with some of its
+/// outputs.
+OperationList recorded_anew(
+    const OperationList& list, std::size_t inputs, bool has_time,
+    const std::vector<std::size_t>& outputs,
+    const std::function<std::vector<Expression>(std::span<const Expression>)>& inputs_of_list) {
+  return record(
+      inputs,
+      [&](std::span<const Expression> variables) {
+        const std::vector<Expression> values = replay(list, inputs_of_list(variables));
+        std::vector<Expression> result;
+        for (const std::size_t o : outputs) result.push_back(values[list.outputs()[o]]);
+        return result;
+      },
+      has_time);
+}
+
+std::vector<std::size_t> all_outputs(const OperationList& list) {
+  std::vector<std::size_t> result(list.outputs().size());
+  std::iota(result.begin(), result.end(), std::size_t{0});
+  return result;
+}
+
 }  // namespace
 
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs) {
   if (inputs.size() != list.inputs()) {
-    throw Error(ErrorKind::usage, "operation list: wrong number of inputs");
+    const bool lacks_time = list.has_time() && inputs.size() == list.variables();
+    throw Error(ErrorKind::usage, lacks_time
+                                      ? "operation list: it depends on the time, which is not given"
+                                      : "operation list: wrong number of inputs");
   }
   std::vector<Expression> values;
   for (const Operation& o : list.operations()) {
@@ -97,6 +147,20 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
       case OperationCode::angle:
         values.push_back(angle(values[o.u], values[o.v]));
         break;
+      case OperationCode::time_function:
+        values.push_back(time_values(o.time_function, values[o.u])[o.component]);
+        break;
+      case OperationCode::field: {
+        Expression sum(0);
+        for (const FieldPart& part : o.parts) {
+          sum += part.factor * field_value(part.field, position_of(part, values), part.orders);
+        }
+        values.push_back(sum);
+        break;
+      }
+      case OperationCode::deviation_product:
+        throw Error(ErrorKind::usage,
+                    "operation list: a list that was expanded for series is recorded");
     }
   }
   return values;
@@ -114,70 +178,107 @@ OperationList gradient(const OperationList& list) {
   if (list.outputs().size() != 1) {
     throw Error(ErrorKind::usage, "gradient: the list must have one output");
   }
-  return record(list.inputs(), [&](std::span<const Expression> inputs) {
-    const std::vector<Expression> values = replay(list, inputs);
-    std::vector<Expression> adjoint(values.size(), Expression(0));
-    adjoint[list.outputs()[0]] = 1;
-    for (std::size_t i = values.size(); i-- > 0;) {
-      const Operation& o = list.operations()[i];
-      if (o.code == OperationCode::input ||
-          (adjoint[i].is_constant() && adjoint[i].constant() == 0)) {
-        continue;
-      }
-      if (o.code == OperationCode::linear) {
-        for (const LinearTerm& t : o.terms) adjoint[t.value] += t.coefficient * adjoint[i];
-        continue;
-      }
-      const Partials partials = partial_derivatives(o, values, i);
-      adjoint[o.u] += adjoint[i] * partials.u;
-      if (has_two_operands(o.code)) adjoint[o.v] += adjoint[i] * partials.v;
-    }
-    adjoint.resize(list.inputs());  // the inputs stand first
-    return adjoint;
-  });
+  return record(
+      list.inputs(),
+      [&](std::span<const Expression> inputs) {
+        const std::vector<Expression> values = replay(list, inputs);
+        std::vector<Expression> adjoint(values.size(), Expression(0));
+        adjoint[list.outputs()[0]] = 1;
+        for (std::size_t i = values.size(); i-- > 0;) {
+          const Operation& o = list.operations()[i];
+          if (o.code == OperationCode::input || list.is_number(i) ||
+              (adjoint[i].is_constant() && adjoint[i].constant() == 0)) {
+            continue;
+          }
+          if (o.code == OperationCode::linear) {
+            for (const LinearTerm& t : o.terms) adjoint[t.value] += t.coefficient * adjoint[i];
+            continue;
+          }
+          if (o.code == OperationCode::field) {
+            for_each_field_derivative(o, values, [&](std::size_t operand, const Expression& slope) {
+              adjoint[operand] += adjoint[i] * slope;
+            });
+            continue;
+          }
+          const Partials partials = partial_derivatives(o, values, i);
+          adjoint[o.u] += adjoint[i] * partials.u;
+          if (has_two_operands(o.code)) adjoint[o.v] += adjoint[i] * partials.v;
+        }
+        adjoint.resize(list.variables());  // the inputs stand first
+        return adjoint;
+      },
+      list.has_time());
 }
 
 OperationList jacobian(const OperationList& list) {
-  return record(list.inputs(), [&](std::span<const Expression> inputs) {
-    const std::vector<Expression> values = replay(list, inputs);
-    const std::size_t n = list.inputs();
-    std::vector<std::vector<Expression>> tangents;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const Operation& o = list.operations()[i];
-      std::vector<Expression> tangent(n, Expression(0));
-      if (o.code == OperationCode::input) {
-        tangent[o.u] = 1;
-      } else if (o.code == OperationCode::linear) {
-        for (const LinearTerm& t : o.terms) {
-          for (std::size_t j = 0; j < n; ++j) tangent[j] += t.coefficient * tangents[t.value][j];
+  return record(
+      list.inputs(),
+      [&](std::span<const Expression> inputs) {
+        const std::vector<Expression> values = replay(list, inputs);
+        const std::size_t n = list.variables();
+        std::vector<std::vector<Expression>> tangents;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const Operation& o = list.operations()[i];
+          std::vector<Expression> tangent(n, Expression(0));
+          const auto add = [&](std::size_t operand, const Expression& slope) {
+            for (std::size_t j = 0; j < n; ++j) tangent[j] += slope * tangents[operand][j];
+          };
+          if (list.is_number(i)) {
+            // The tangent stays zero.
+          } else if (o.code == OperationCode::input) {
+            tangent[o.u] = 1;
+          } else if (o.code == OperationCode::linear) {
+            for (const LinearTerm& t : o.terms) add(t.value, Expression(t.coefficient));
+          } else if (o.code == OperationCode::field) {
+            for_each_field_derivative(o, values, add);
+          } else {
+            const Partials partials = partial_derivatives(o, values, i);
+            for (std::size_t j = 0; j < n; ++j) {
+              tangent[j] = partials.u * tangents[o.u][j];
+              if (has_two_operands(o.code)) tangent[j] += partials.v * tangents[o.v][j];
+            }
+          }
+          tangents.push_back(std::move(tangent));
         }
-      } else {
-        const Partials partials = partial_derivatives(o, values, i);
-        for (std::size_t j = 0; j < n; ++j) {
-          tangent[j] = partials.u * tangents[o.u][j];
-          if (has_two_operands(o.code)) tangent[j] += partials.v * tangents[o.v][j];
+        std::vector<Expression> outputs;
+        for (const std::size_t o : list.outputs()) {
+          outputs.insert(outputs.end(), tangents[o].begin(), tangents[o].end());
         }
-      }
-      tangents.push_back(std::move(tangent));
-    }
-    std::vector<Expression> outputs;
-    for (const std::size_t o : list.outputs()) {
-      outputs.insert(outputs.end(), tangents[o].begin(), tangents[o].end());
-    }
-    return outputs;
-  });
+        return outputs;
+      },
+      list.has_time());
+}
+
+OperationList at_time(const OperationList& list, const Extended& time) {
+  if (!list.has_time()) return list;
+  return recorded_anew(list, list.variables(), false, all_outputs(list),
+                       [&](std::span<const Expression> variables) {
+                         std::vector<Expression> all(variables.begin(), variables.end());
+                         all.emplace_back(time);
+                         return all;
+                       });
+}
+
+OperationList with_time(const OperationList& list) {
+  if (list.has_time()) return list;
+  return recorded_anew(list, list.inputs() + 1, true, all_outputs(list),
+                       [&](std::span<const Expression> inputs) {
+                         return std::vector<Expression>(inputs.begin(), inputs.end() - 1);
+                       });
 }
 
 OperationList restrict_list(const OperationList& list, std::span<const std::size_t> kept_inputs,
                             std::span<const std::size_t> kept_outputs) {
-  return record(kept_inputs.size(), [&](std::span<const Expression> inputs) {
-    std::vector<Expression> all(list.inputs(), Expression(0));
-    for (std::size_t i = 0; i < kept_inputs.size(); ++i) all[kept_inputs[i]] = inputs[i];
-    const std::vector<Expression> values = replay(list, all);
-    std::vector<Expression> outputs;
-    for (const std::size_t o : kept_outputs) outputs.push_back(values[list.outputs()[o]]);
-    return outputs;
-  });
+  return recorded_anew(list, kept_inputs.size() + (list.has_time() ? 1 : 0), list.has_time(),
+                       {kept_outputs.begin(), kept_outputs.end()},
+                       [&](std::span<const Expression> inputs) {
+                         std::vector<Expression> all(list.inputs(), Expression(0));
+                         for (std::size_t i = 0; i < kept_inputs.size(); ++i) {
+                           all[kept_inputs[i]] = inputs[i];
+                         }
+                         if (list.has_time()) all.back() = inputs.back();
+                         return all;
+                       });
 }
 
 bool output_vanishes(const OperationList& list, std::size_t output) {

@@ -22,6 +22,10 @@ std::string content_checksum(const StoredJet& description, const FlowJet<Extende
                         ephemeris->reference_frame, ephemeris->reference_frame_epoch,
                         ephemeris->center_name);
   }
+  if (description.start_time != ClockTime::epoch()) {
+    text += fmt::format("start {:.17g}\n", description.start_time.in<double>());
+  }
+  if (!description.is_autonomous) text += "not autonomous\n";
   if (description.coordinates != JetCoordinates::cartesian) {
     text += name_of(description.coordinates) + "\n";
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "../dynamics/autonomy.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/version.hpp"
@@ -19,6 +20,8 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.precision = scene.precision;
   description.units = scene.units;
   description.duration = scene.duration;
+  description.start_time = scene.start_time;
+  description.is_autonomous = is_autonomous(*result.problem.system);
   description.nominal_initial = scene.nominal;
   description.nominal_final = run.nominal_final;
   description.components = result.problem.components;
@@ -90,6 +93,10 @@ std::vector<std::string> jet_notes(const StoredJet& description, int order) {
                                 ephemeris->time_system, ephemeris->reference_frame,
                                 ephemeris->reference_frame_epoch.empty() ? "" : " of ",
                                 ephemeris->reference_frame_epoch, ephemeris->center_name));
+  }
+  if (description.start_time != ClockTime::epoch()) {
+    notes.push_back(fmt::format("the jet starts at {:.17g} canonical after the epoch",
+                                description.start_time.in<double>()));
   }
   if (description.precision == Precision::extended) {
     notes.emplace_back("coefficients of extended precision, rounded to double precision");

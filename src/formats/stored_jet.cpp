@@ -153,6 +153,10 @@ DescribedRun read_description(const JsonReader& root, const std::optional<std::s
                   positive_number(root.at("units").at("time_s"))};
   if (root.has("ephemeris")) stored.ephemeris = read_stored_ephemeris(root.at("ephemeris"));
   stored.duration = finite_number(root.at("duration_canonical"));
+  if (root.has("start_canonical")) {
+    stored.start_time = ClockTime(finite_number(root.at("start_canonical")));
+  }
+  if (root.has("autonomous")) stored.is_autonomous = root.at("autonomous").boolean();
   stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
   if (root.has("state_names")) stored.own_names = state_names(root.at("state_names"), stored);
   const auto names = stored.variable_names();

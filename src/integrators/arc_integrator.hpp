@@ -36,6 +36,8 @@ class ArcIntegrator {
   virtual long step(std::size_t checkpoint) const = 0;
   /// The nominal at a checkpoint.
   virtual const std::vector<Real>& state(std::size_t checkpoint) const = 0;
+  /// The time of a checkpoint since the start.
+  virtual Real time(std::size_t checkpoint) const = 0;
   /// Takes the steps from a checkpoint to step number `last` of the whole integration, with a jet
   /// about the checkpoint's state.
   virtual FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
@@ -81,12 +83,13 @@ FlowProblem<Real> nominal_problem(const FlowProblem<Real>& problem) {
   return result;
 }
 
-/// The problem of an arc that starts from a checkpoint's state.
+/// The problem of an arc that starts from a checkpoint's state. Its steps go on counting their time
+/// from the start of the whole, so that its start time is that of the whole.
 template <class Real>
 FlowProblem<Real> arc_problem(const FlowProblem<Real>& whole, const std::vector<Real>& state,
                               const SpacePointer& space, const std::vector<std::size_t>& variables,
                               const FlowJet<Real>& start) {
-  return {whole.system, space, variables, state, whole.duration, start};
+  return {whole.system, space, variables, state, whole.start_time, whole.duration, start};
 }
 
 }  // namespace hamjet

@@ -244,8 +244,9 @@ class ArcSplitting {
                                     starting_jet(problem_), each[k], after_step);
             return;
           }
-          coordinates_[k] = std::make_unique<CutCoordinates<Real>>(*problem_.system,
-                                                                   arcs_.state(cuts_[k]), space);
+          coordinates_[k] = std::make_unique<CutCoordinates<Real>>(
+              *problem_.system, arcs_.state(cuts_[k]), problem_.start_time + arcs_.time(cuts_[k]),
+              space);
           jets[k] = arcs_.run_arc(cuts_[k], last, space, all, coordinates_[k]->start(), each[k],
                                   after_step);
         },

@@ -37,13 +37,18 @@ namespace hamjet {
 /// an equilibrium this distance is much smaller than that over which the vector field changes.
 /// There the motion is nearly linear and shears little, and w = S^-1 x is used, as for linear
 /// systems.
+///
+/// For a system with time H is taken at the time of the cut. Any coordinates give the same jet; the
+/// more slowly the flow changes H, or the Jacobi integral in its place, the fewer digits are lost.
 template <class Real>
 class CutCoordinates {
  public:
   /// `space` must have as many variables as the system has components.
   CutCoordinates(const DynamicalSystem& system, const std::vector<Real>& state,
-                 const SpacePointer& space)
+                 const ClockTime& time, const SpacePointer& space)
       : system_(&system),
+        time_(time),
+        energy_(conserved_list(system).value_or(system.hamiltonian)),
         state_(state),
         space_(space),
         order_(working_order(system, space->order())),
@@ -71,7 +76,7 @@ class CutCoordinates {
     }
     if (uses_energy_) {
       const int order = working_order(*system_, space->order());
-      SliceEvaluator<Real, Real> energy(system_->hamiltonian, space, order);
+      SliceEvaluator<Real, Real> energy = evaluator(energy_, space, order);
       for (std::size_t i = 0; i < n_; ++i) {
         std::copy_n(jet[i].coefficients().data(), space->first(order + 1), energy.input(i));
         // Because of rounding, the nominal of the jet may be slightly off the cut.
@@ -95,11 +100,19 @@ class CutCoordinates {
     return axes_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
 
+  /// An evaluator of a list at the time of the cut.
+  SliceEvaluator<Real, Real> evaluator(const OperationList& list, const SpacePointer& space,
+                                       int order) const {
+    SliceEvaluator<Real, Real> result(list, space, order);
+    if (result.has_time()) result.set_time(time_.template in<Real>());
+    return result;
+  }
+
   void find_axes() {
     // The scale is a power of two, so that scaling rounds nothing.
-    momentum_scale_ = Real(
-        std::exp2(std::round(std::log2(momentum_scale(*system_, std::span<const Real>(state_))))));
-    SliceEvaluator<Real, Real> energy(system_->hamiltonian, space_, 0);
+    momentum_scale_ = Real(std::exp2(
+        std::round(std::log2(momentum_scale(*system_, std::span<const Real>(state_), time_)))));
+    SliceEvaluator<Real, Real> energy = evaluator(energy_, space_, 0);
     for (std::size_t i = 0; i < n_; ++i) *energy.input(i) = state_[i];
     energy.evaluate_constant_terms();
     const std::size_t half = n_ / 2;
@@ -138,7 +151,7 @@ class CutCoordinates {
   }
 
   void form_energy_start() {
-    SliceEvaluator<Real, Real> energy(system_->hamiltonian, space_, order_);
+    SliceEvaluator<Real, Real> energy = evaluator(energy_, space_, order_);
     for (std::size_t i = 0; i < n_; ++i) {
       std::copy_n(start_[i].coefficients().data(), space_->first(order_ + 1), energy.input(i));
     }
@@ -176,7 +189,7 @@ class CutCoordinates {
   /// least of (|f_1| / |f_d|)^(1/(d-1)) over the degrees d, where f_d is the largest coefficient of
   /// the degree on the linear x(w), scaled.
   double field_reach() const {
-    SliceEvaluator<Real, Real> field(system_->vector_field, space_, order_);
+    SliceEvaluator<Real, Real> field = evaluator(system_->vector_field, space_, order_);
     for (std::size_t i = 0; i < n_; ++i) {
       std::copy_n(start_[i].coefficients().data(), space_->first(2), field.input(i));
     }
@@ -201,6 +214,8 @@ class CutCoordinates {
   }
 
   const DynamicalSystem* system_;
+  ClockTime time_;
+  OperationList energy_;  ///< what the flow keeps, or H
   std::vector<Real> state_;
   SpacePointer space_;
   int order_;

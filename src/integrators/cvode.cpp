@@ -174,15 +174,15 @@ class CvodeIntegration {
 
   /// The callback that factorises I - gamma J. `*is_new` reports whether J was evaluated here;
   /// `may_keep` allows to keep the old J.
-  static int set_up_linear_system(realtype, N_Vector y, N_Vector, SUNMatrix, booleantype may_keep,
-                                  booleantype* is_new, realtype gamma, void* self, N_Vector,
-                                  N_Vector, N_Vector) {
+  static int set_up_linear_system(realtype time, N_Vector y, N_Vector, SUNMatrix,
+                                  booleantype may_keep, booleantype* is_new, realtype gamma,
+                                  void* self, N_Vector, N_Vector, N_Vector) {
     return call(self, [&](CvodeIntegration& integration) {
       CoefficientBlockSolver& solver = *integration.block_solver_;
       *is_new = may_keep ? SUNFALSE : SUNTRUE;
       if (!may_keep) {
         ++integration.counts_.jacobian_evaluations;
-        if (!solver.evaluate(N_VGetArrayPointer(y))) return 1;
+        if (!solver.evaluate(N_VGetArrayPointer(y), time)) return 1;
       }
       ++integration.counts_.factorisations;
       return solver.factorise(gamma) ? 0 : 1;

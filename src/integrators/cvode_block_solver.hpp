@@ -34,6 +34,7 @@ class CoefficientBlockSolver {
         dimension_(problem.system->dimension()),
         coefficients_(space_->first(order_ + 1)),
         jacobian_(jacobian(problem.system->vector_field)),
+        start_time_(problem.start_time.in<double>()),
         evaluator_(jacobian_, space_, order_),
         factors_(dimension_ * dimension_),
         rows_(dimension_),
@@ -46,8 +47,9 @@ class CoefficientBlockSolver {
     }
   }
 
-  /// Evaluates A at a state. Returns false if a number is not finite.
-  bool evaluate(const double* state) {
+  /// Evaluates A at a state and a time since the start. Returns false if a number is not finite.
+  bool evaluate(const double* state, double time) {
+    evaluator_.set_time(start_time_ + time);
     for (std::size_t i = 0; i < dimension_; ++i) {
       std::copy_n(state + i * coefficients_, coefficients_, evaluator_.input(i));
     }
@@ -154,6 +156,7 @@ class CoefficientBlockSolver {
   std::size_t dimension_;
   std::size_t coefficients_;
   OperationList jacobian_;
+  double start_time_;
   SliceEvaluator<double, double> evaluator_;
   std::vector<Entry> varying_;
   std::vector<double> factors_;    ///< 2n x 2n

@@ -35,8 +35,8 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
       line_space_(SeriesSpace::create(1, problem.space->order())) {
   const std::size_t n = problem.system->degrees_of_freedom;
   const std::span<const Real> state(problem.initial_state);
-  const double scale = field_->momentum_scale(state);
-  const std::vector<double> gradient = field_->energy_gradient(state);
+  const double scale = field_->momentum_scale(state, problem.start_time);
+  const std::vector<double> gradient = field_->energy_gradient(state, problem.start_time);
   const auto along_field = [&](std::size_t v) {
     return v < n ? gradient[n + v] : -gradient[v - n];
   };
@@ -92,7 +92,7 @@ std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& line
   const std::size_t n = problem_.system->degrees_of_freedom;
   std::vector<Real> end;
   for (const Series<Real>& component : reference.at(0)) end.push_back(component[0]);
-  const double scale = field_->momentum_scale(end);
+  const double scale = field_->momentum_scale(end, problem_.start_time + problem_.duration);
   std::vector<double> result;
   for (std::size_t d = 0; d < line_space_->size(); ++d) {
     double difference = 0;

@@ -44,6 +44,9 @@ void validate(const FlowProblem<Real>& problem) {
       }
     }
   }
+  if (!is_finite(problem.start_time.template in<Real>())) {
+    throw Error(ErrorKind::numerical, "flow problem: the start time is not finite");
+  }
   if (!is_finite(problem.duration)) {
     throw Error(ErrorKind::numerical, "flow problem: the duration is not finite");
   }

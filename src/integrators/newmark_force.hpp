@@ -63,6 +63,8 @@ class NewmarkForce {
   const Real* q(std::size_t i) { return evaluator_.input(i); }
   const Real* f(std::size_t i) const { return &force_[i * count_]; }
 
+  void set_time(const Real& time) { evaluator_.set_time(time); }
+
   /// Evaluates F(q) and x = q - c M^-1 F(q); returns false if F(q) is not finite.
   bool start(const FlowJet<Real>& jet) {
     failure_ = "the force is not finite (a collision, or a point outside its domain)";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -30,8 +31,9 @@ class FieldAtStates {
         energy_(system.hamiltonian, SeriesSpace::create(1, 0), 0),
         field_(system.vector_field, SeriesSpace::create(1, 0), 0) {}
 
-  /// The gradient of the Hamiltonian.
-  std::vector<double> energy_gradient(std::span<const Real> state) {
+  /// The gradient of the Hamiltonian at a state and a time of the system's clock.
+  std::vector<double> energy_gradient(std::span<const Real> state, const ClockTime& time) {
+    if (energy_.has_time()) energy_.set_time(time.in<Real>());
     for (std::size_t i = 0; i < state.size(); ++i) *energy_.input(i) = state[i];
     energy_.evaluate_constant_terms();
     std::vector<double> result;
@@ -41,8 +43,9 @@ class FieldAtStates {
     return result;
   }
 
-  LinearisedMotion linearised_motion(std::span<const Real> state) {
+  LinearisedMotion linearised_motion(std::span<const Real> state, const ClockTime& time) {
     const std::size_t n = degrees_of_freedom_;
+    if (field_.has_time()) field_.set_time(time.in<Real>());
     for (std::size_t i = 0; i < state.size(); ++i) *field_.input(i) = state[i];
     field_.evaluate_constant_terms();
     LinearisedMotion result;
@@ -67,9 +70,9 @@ class FieldAtStates {
   /// past a centre), that of the motion itself. A change of units changes P as it changes p / q, so
   /// that no decision in scaled variables depends on the units. P is 1 where both terms are
   /// undefined (a state at rest in the origin of a system without forces).
-  double momentum_scale(std::span<const Real> state) {
+  double momentum_scale(std::span<const Real> state, const ClockTime& time) {
     const std::size_t n = degrees_of_freedom_;
-    const LinearisedMotion motion = linearised_motion(state);
+    const LinearisedMotion motion = linearised_motion(state, time);
     double position = 0;
     double momentum = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -92,8 +95,9 @@ class FieldAtStates {
 
 /// FieldAtStates::momentum_scale for one state.
 template <class Real>
-double momentum_scale(const DynamicalSystem& system, std::span<const Real> state) {
-  return FieldAtStates<Real>(system).momentum_scale(state);
+double momentum_scale(const DynamicalSystem& system, std::span<const Real> state,
+                      const ClockTime& time) {
+  return FieldAtStates<Real>(system).momentum_scale(state, time);
 }
 
 }  // namespace hamjet

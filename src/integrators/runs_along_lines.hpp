@@ -58,6 +58,7 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
           line,
           {0},
           problem.initial_state,
+          problem.start_time,
           problem.duration,
           restrict_to_line(starting_jet(problem), entries, line)};
 }
@@ -67,7 +68,7 @@ template <class Real>
 FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
                                 std::span<const Direction<Real>> directions, int exponent) {
   std::vector<FlowJet<Real>> starts;
-  FlowProblem<Real> all;
+  FlowProblem<Real> all = problem;
   for (const Direction<Real>& direction : directions) {
     all = problem_along(problem, direction.entries, exponent);
     starts.push_back(*all.initial_jet);

@@ -26,7 +26,7 @@ namespace hamjet {
 /// A method as a sequence of shears, in fractions of the step h:
 ///
 ///   kick(kicks_0), drift(drifts_1), kick(kicks_1), ..., drift(drifts_s), kick(kicks_s);
-///   kick(b): p += b h F(q),   drift(c): x += c h M^-1 p .
+///   kick(b): p += b h F(q, t),   drift(c): x += c h M^-1 p,  t += c h .
 ///
 /// x is q itself, or the variable that determines it (see NewmarkForce).
 template <class Real>
@@ -84,6 +84,7 @@ FlowJet<Real> integrate_splitting(const FlowProblem<Real>& problem, Splitting<Re
 /// One integration. Force holds the positions and evaluates the force on series:
 ///
 ///   x(i), q(i), f(i)  the coefficients of the i-th summed position, position and force;
+///   set_time(t)       sets the time of the system's clock for the evaluations that follow;
 ///   start(jet)        takes the initial positions and evaluates there, false if not finite;
 ///   evaluate()        evaluates at the drifted x; false if there is no finite result;
 ///   work()            the products of series formed so far.
@@ -104,6 +105,7 @@ class SplittingIntegration {
         statistics_(statistics),
         observer_(observer),
         n_(problem.system->degrees_of_freedom),
+        start_time_(problem.start_time.template in<Real>()),
         count_(problem.space->first(working_order(problem) + 1)),
         jet_(starting_jet(problem)),
         momenta_(n_ * count_),
@@ -169,6 +171,7 @@ class SplittingIntegration {
 
   /// Evaluates the force at the start and takes the first kick.
   void start() {
+    force_.set_time(Real(start_time_ + time_));
     require(force_.start(jet_));
     ++statistics_.vector_field_evaluations;
     kick(step_ * splitting_.kicks[0]);
@@ -179,19 +182,21 @@ class SplittingIntegration {
   void take_steps(long last, const AfterStep& after_step) {
     const std::size_t stages = splitting_.drifts.size();
     while (taken_ < last) {
+      const Real end = time_after(taken_ + 1);
+      Real drifted = 0;
       for (std::size_t s = 0; s < stages; ++s) {
         if (s > 0) {
-          evaluate();
+          evaluate(Real(time_ + step_ * drifted));
           kick(step_ * splitting_.kicks[s]);
         }
         drift(step_ * splitting_.drifts[s]);
+        drifted += splitting_.drifts[s];
       }
       // Störmer's rule ends with a drift, so that the force at the end is not needed.
-      if (taken_ + 1 < last || end_kick_ != 0) evaluate();
+      if (taken_ + 1 < last || end_kick_ != 0) evaluate(end);
       ++statistics_.steps;
       ++taken_;
-      time_ = taken_ == steps_ ? problem_.duration
-                               : Real(problem_.duration - step_ * Real(steps_ - taken_));
+      time_ = end;
       if (observer_) observe();
       after_step();
       if (taken_ < last) kick(joined_kick_);
@@ -217,8 +222,16 @@ class SplittingIntegration {
     return result;
   }
 
-  void evaluate() {
+  /// The time since the start after a number of steps.
+  Real time_after(long taken) const {
+    return taken == steps_ ? problem_.duration
+                           : Real(problem_.duration - step_ * Real(steps_ - taken));
+  }
+
+  /// Evaluates the force at a time since the start.
+  void evaluate(const Real& time) {
     ++statistics_.vector_field_evaluations;
+    force_.set_time(Real(start_time_ + time));
     require(force_.evaluate());
   }
 
@@ -291,6 +304,7 @@ class SplittingIntegration {
   IntegrationStatistics& statistics_;
   const StepObserver<Real>& observer_;
   std::size_t n_;
+  Real start_time_;
   std::size_t count_;  ///< number of coefficients of one component
   FlowJet<Real> jet_;
   std::vector<Real> momenta_;

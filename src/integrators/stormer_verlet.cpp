@@ -26,8 +26,10 @@ class ExplicitForce {
   const Real* q(std::size_t i) { return evaluator_.input(i); }
   const Real* f(std::size_t i) const { return evaluator_.output(i); }
 
+  void set_time(const Real& time) { evaluator_.set_time(time); }
+
   bool start(const FlowJet<Real>& jet) {
-    for (std::size_t i = 0; i < list_.inputs(); ++i) {
+    for (std::size_t i = 0; i < list_.variables(); ++i) {
       std::copy_n(jet[i].coefficients().data(), count_, evaluator_.input(i));
     }
     return evaluate();
@@ -36,7 +38,7 @@ class ExplicitForce {
   bool evaluate() {
     evaluator_.evaluate_all();
     bool result = true;
-    for (std::size_t i = 0; i < list_.inputs(); ++i) result &= is_finite(f(i)[0]);
+    for (std::size_t i = 0; i < list_.variables(); ++i) result &= is_finite(f(i)[0]);
     return result;
   }
 
@@ -75,6 +77,7 @@ class SplittingArcs : public ArcIntegrator<Real> {
   const std::vector<Real>& state(std::size_t checkpoint) const override {
     return checkpoints_[checkpoint].state;
   }
+  Real time(std::size_t checkpoint) const override { return checkpoints_[checkpoint].time; }
 
   FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
                         const std::vector<std::size_t>& variables, const FlowJet<Real>& start,
@@ -90,7 +93,7 @@ class SplittingArcs : public ArcIntegrator<Real> {
   StepCost cost(const SeriesSpace& space) const override {
     const OperationList& list = problem_.system->evaluated_list();
     const int order = working_order(*problem_.system, space.order());
-    const double components = static_cast<double>(list.inputs());
+    const double components = static_cast<double>(list.variables());
     const double stages = static_cast<double>(splitting_.drifts.size());
     const double values = static_cast<double>(list.operations().size());
     const double coefficients = static_cast<double>(space.first(order + 1));

@@ -13,9 +13,16 @@ namespace hamjet {
 constexpr double least_share = 0.25 * std::numeric_limits<double>::epsilon();
 
 TaylorFlow::TaylorFlow(SharedSystem system)
-    : system_(std::move(system)), field_(system_->vector_field, order) {}
+    : system_(std::move(system)),
+      highest_power_(system_->vector_field.has_fields() ? highest_power_of_fields : order),
+      field_(system_->vector_field, highest_power_) {}
 
-void TaylorFlow::set_state(std::size_t lane, std::span<const double> state) {
+void TaylorFlow::set_state(std::size_t lane, const ClockTime& time, std::span<const double> state) {
+  set_state(lane, time.in<double>(), state);
+}
+
+void TaylorFlow::set_state(std::size_t lane, double time, std::span<const double> state) {
+  clock_.set_lane(static_cast<int>(lane), time);
   for (std::size_t i = 0; i < state.size(); ++i) {
     field_.input(i)->set_lane(static_cast<int>(lane), state[i]);
   }
@@ -77,15 +84,17 @@ void TaylorFlow::expand(std::span<const double> times) {
   const Lanes spans = Lanes::of_lanes(
       [&](std::size_t lane) { return lane < times.size() ? std::abs(times[lane]) : 0.0; });
   const std::size_t timed = std::min(times.size(), lanes);
-  powers_.fill(order);
+  powers_.fill(highest_power_);
+  field_.set_time(clock_);
   proved_ = Lanes();
   std::size_t proved = 0;
   Lanes square;     // squares of the durations in the lanes' units of time
   Lanes before(1);  // their power k
-  for (int k = 0; k < order; ++k) {
+  for (int k = 0; k < highest_power_; ++k) {
     field_.expand(k);
     if (k == 0) {
       choose_units();
+      field_.set_unit(units_);
       square = spans / units_;
       square *= square;
     }
@@ -101,7 +110,8 @@ void TaylorFlow::expand(std::span<const double> times) {
     }
     for (std::size_t lane = 0; lane < timed; ++lane) {
       const auto i = static_cast<int>(lane);
-      if (powers_[lane] < order || !(shares.lane(i) <= least_share * least_share)) continue;
+      if (powers_[lane] < highest_power_ || !(shares.lane(i) <= least_share * least_share))
+        continue;
       powers_[lane] = k + 1;
       proved_.set_lane(i, spans.lane(i));
       ++proved;
@@ -144,15 +154,18 @@ void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state
   }
 }
 
-void TaylorFlow::advance(std::span<double> states, std::span<const double> times) {
+void TaylorFlow::advance(std::span<double> states, const ClockTime& start_time,
+                         std::span<const double> times) {
+  const double start = start_time.in<double>();
   const std::size_t size = system_->dimension();
   for (std::size_t first = 0; first < times.size(); first += lanes) {
     const std::size_t count = std::min(lanes, times.size() - first);
-    advance_lanes(states.subspan(first * size, count * size), times.subspan(first, count));
+    advance_lanes(states.subspan(first * size, count * size), start, times.subspan(first, count));
   }
 }
 
-void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double> times) {
+void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
+                               std::span<const double> times) {
   constexpr int most_expansions = 1000000;
   // A step shorter than this fraction of the whole time runs into a collision.
   constexpr double least_part = 1e-9;
@@ -162,7 +175,7 @@ void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double>
   const auto state = [&](std::size_t lane) { return states.subspan(lane * size, size); };
   // Lanes without a state of their own repeat the first one, so that they are finite.
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    set_state(lane, state(lane < times.size() ? lane : 0));
+    set_state(lane, start_time, state(lane < times.size() ? lane : 0));
   }
   const auto is_moving = [](double time) { return time != 0; };
   for (int count = 0; std::any_of(left.begin(), left.end(), is_moving); ++count) {
@@ -177,7 +190,7 @@ void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double>
       }
       evaluate(lane, step, state(lane));
       left[lane] -= step;
-      set_state(lane, state(lane));
+      set_state(lane, start_time + (times[lane] - left[lane]), state(lane));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "hamjet/detail/algebra/pack.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "time_expansion.hpp"
 
@@ -29,11 +30,14 @@ class TaylorFlow {
   static constexpr std::size_t lanes = 8;
   /// The highest power of time.
   static constexpr int order = 24;
+  /// The highest power for systems with fields, whose monomials grow in number with its cube.
+  static constexpr int highest_power_of_fields = 12;
 
   explicit TaylorFlow(SharedSystem system);
 
-  /// Sets the state, of 2n numbers, about which a lane is to be expanded.
-  void set_state(std::size_t lane, std::span<const double> state);
+  /// Sets the state, of 2n numbers, about which a lane is to be expanded, and the system's clock at
+  /// it.
+  void set_state(std::size_t lane, const ClockTime& time, std::span<const double> state);
   /// Expands the flow of all lanes: to the highest power, or, for each of the first lanes, to the
   /// power that leaves out no more than rounding at its time in `times`. The power is chosen lane
   /// by lane, so that no digit of a lane depends on the others.
@@ -54,14 +58,16 @@ class TaylorFlow {
   /// The state of a lane at a time, counted from the state about which it was expanded.
   void evaluate(std::size_t lane, double time, std::span<double> state) const;
 
-  /// Carries the states of this number of lanes along the flow, each over a time of its own, in as
-  /// many expansions as needed. States that collide, or meet a field that is not finite, become
-  /// NaN. `states` has 2n numbers for each.
-  void advance(std::span<double> states, std::span<const double> times);
+  /// Carries states, which all stand at `start_time` of the system's clock, along the flow, each
+  /// over a time of its own, in as many expansions as needed. States that collide, or meet a field
+  /// that is not finite, become NaN. `states` has 2n numbers for each.
+  void advance(std::span<double> states, const ClockTime& start_time,
+               std::span<const double> times);
 
  private:
   /// As `advance`, for no more states than lanes.
-  void advance_lanes(std::span<double> states, std::span<const double> times);
+  void advance_lanes(std::span<double> states, double start_time, std::span<const double> times);
+  void set_state(std::size_t lane, double time, std::span<const double> state);
 
   using Lanes = Pack<double, static_cast<int>(lanes)>;
 
@@ -72,7 +78,9 @@ class TaylorFlow {
   Lanes squares(int power, bool is_of_momenta) const;
 
   SharedSystem system_;
+  int highest_power_;
   TimeExpansion<Lanes, double> field_;
+  Lanes clock_;  ///< the system's clock at the states
   /// The lanes' units. Coefficients belong to powers (t / unit)^k, so that in any units of the
   /// system they are about as large as the state, and their squares neither vanish nor overflow.
   Lanes units_ = Lanes(1);

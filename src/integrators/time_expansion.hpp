@@ -1,13 +1,19 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
+#include "hamjet/detail/dynamics/field_values.hpp"
 #include "hamjet/detail/dynamics/operation_list.hpp"
 
 namespace hamjet {
@@ -19,16 +25,30 @@ namespace hamjet {
 /// recurrences: A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed., SIAM 2008, section
 /// 13.2.
 ///
+/// The series of a function of the time come from its object. A field is expanded in the
+/// deviations of its position (expand_fields), and its object is asked for coefficients of higher
+/// degree as higher powers of the time need them.
+///
 /// T is a real number or a Pack, Real its number type.
 template <class T, class Real>
 class TimeExpansion {
  public:
   /// Prepares expansions up to the power `order`; the list must outlive the object.
   TimeExpansion(const OperationList& list, int order)
-      : list_(&list), stride_(static_cast<std::size_t>(order) + 1) {
-    coefficients_.assign(list.operations().size() * stride_, T(Real(0)));
-    for (std::size_t i = list.inputs(); i < list.operations().size(); ++i) {
-      const Operation& operation = list.operations()[i];
+      : expanded_(list.has_fields() ? std::make_shared<const OperationList>(
+                                          expand_fields(list, order, FieldMotion::with_time))
+                                    : nullptr),
+        list_(expanded_ ? expanded_.get() : &list),
+        order_(order),
+        stride_(static_cast<std::size_t>(order) + 1),
+        fields_(*list_, order),
+        field_coefficients_(fields_.is_empty() ? 0 : list_->operations().size()) {
+    const auto operations = list_->operations();
+    coefficients_.assign(operations.size() * stride_, T(Real(0)));
+    // Without a time nothing that depends on it is a number.
+    if (list.has_time()) set_time(T(Real(std::numeric_limits<double>::quiet_NaN())));
+    for (std::size_t i = list_->inputs(); i < operations.size(); ++i) {
+      const Operation& operation = operations[i];
       steps_.push_back({operation.code, i * stride_, operation.u * stride_, operation.v * stride_,
                         terms_.size(), terms_.size() + operation.terms.size(),
                         convert<Real>(operation.constant)});
@@ -44,8 +64,24 @@ class TimeExpansion {
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
 
+  /// Sets the time about which all is expanded, before power 0; it does nothing for a list that has
+  /// no time.
+  void set_time(const T& time) {
+    if (!list_->has_time()) return;
+    *input(list_->variables()) = time;
+    for (auto& [function, values] : time_values_) values.clear();
+  }
+  /// Sets the unit of the time in which powers are counted, before power 1; it is 1 without a call.
+  void set_unit(const T& unit) { unit_ = unit; }
+
   /// Forms the coefficients of t^k of all values; those of lower powers must be known.
   void expand(int k) {
+    if (k == 0) {
+      unit_ = T(Real(1));
+      field_degree_ = 0;
+    }
+    if (k > 0 && list_->has_time()) input(list_->variables())[k] = k == 1 ? unit_ : T(Real(0));
+    if (k > field_degree_ && !fields_.is_empty()) raise_field_degree();
     for (const Step& step : steps_) form(step, k);
   }
 
@@ -141,7 +177,77 @@ class TimeExpansion {
       case OperationCode::angle:  // w' = v u' - u v'
         w[k] = k == 0 ? T(atan2(u[0], v[0])) : by_derivative(u, v, k) - by_derivative(v, u, k);
         return;
+      case OperationCode::time_function:
+        w[k] = time_value(list_->operations()[o.value / stride_], k);
+        return;
+      case OperationCode::deviation_product: {
+        const auto& lowest = list_->operations()[o.value / stride_].lowest;
+        w[k] = sum_of(lowest[0], k - lowest[1], [&](int j) { return u[j] * v[k - j]; });
+        return;
+      }
+      case OperationCode::field:
+        w[k] = field_value(o, k);
+        return;
     }
+  }
+
+  auto constant_terms() const {
+    return [this](std::size_t i) -> const T& { return *value(i); };
+  }
+
+  T field_value(const Step& o, int k) {
+    const std::size_t place = o.value / stride_;
+    if (k == 0) return fields_.evaluate(place, constant_terms());
+    T sum(Real(0));
+    // Monomials above degree k have no such power, and stand behind the others.
+    const std::vector<T>& coefficients = field_coefficients_[place];
+    for (std::size_t t = 0; t < coefficients.size(); ++t) {
+      const T* const monomial = coefficients_.data() + terms_[o.first_term + t].value;
+      sum += coefficients[t] * monomial[k];
+    }
+    return sum;
+  }
+
+  /// Asks the fields for coefficients of higher degree. Those that are known stay as they are, so
+  /// that no digit depends on how far an expansion goes.
+  void raise_field_degree() {
+    constexpr int first_degree = 4;
+    const bool is_first = field_degree_ == 0;
+    field_degree_ = std::min(order_, is_first ? first_degree : 2 * field_degree_);
+    for (const Step& step : steps_) {
+      if (step.code != OperationCode::field) continue;
+      const std::size_t place = step.value / stride_;
+      std::vector<T>& coefficients = field_coefficients_[place];
+      if (is_first) coefficients.clear();
+      fields_.evaluate_terms(place, field_degree_, constant_terms(),
+                             [&](std::size_t t, const T& coefficient) {
+                               if (t == coefficients.size()) coefficients.push_back(coefficient);
+                             });
+    }
+  }
+
+  /// The coefficient of t^k of a function of the time, which is asked once for all of them.
+  T time_value(const Operation& o, int k) {
+    using Lanes = TimeLanes<T, Real>;
+    using Number = typename Lanes::Number;
+    constexpr std::size_t lanes = Lanes::count();
+    std::vector<T>& values = time_values_[o.time_function.get()];
+    if (values.empty()) {
+      std::array<Number, lanes> times;
+      Lanes::put(*value(o.u), times.data());
+      const std::size_t size = o.time_function->components() * stride_;
+      std::vector<Number> at_lane(size);
+      std::vector<Number> all(size * lanes, std::numeric_limits<Number>::quiet_NaN());
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        if (!(times[lane] == times[lane])) continue;
+        o.time_function->expand(times[lane], order_, at_lane.data());
+        for (std::size_t j = 0; j < size; ++j) all[j * lanes + lane] = at_lane[j];
+      }
+      for (std::size_t j = 0; j < size; ++j) values.push_back(Lanes::take(&all[j * lanes]));
+    }
+    T result = values[o.component * stride_ + static_cast<std::size_t>(k)];
+    for (int j = 0; j < k; ++j) result *= unit_;
+    return result;
   }
 
   /// The coefficient of the integral of u' v.
@@ -163,8 +269,15 @@ class TimeExpansion {
     return even + odd;
   }
 
+  std::shared_ptr<const OperationList> expanded_;  ///< the list, if it has fields
   const OperationList* list_;
+  int order_;
   std::size_t stride_;
+  FieldValues<T, Real> fields_;
+  std::vector<std::vector<T>> field_coefficients_;  ///< of the monomials, by value
+  int field_degree_ = 0;
+  T unit_ = T(Real(1));
+  std::map<const TimeFunction*, std::vector<T>> time_values_;
   std::vector<T> coefficients_;
   std::vector<Step> steps_;
   std::vector<Term> terms_;

@@ -8,6 +8,7 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -80,16 +81,20 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
 
 template <class Real>
 EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
-                         const Real& near, int order, const GaussSettings& gauss,
-                         const EventCondition<Real>& condition) {
+                         const ClockTime& start_time, const Real& near, int order,
+                         const GaussSettings& gauss, const EventCondition<Real>& condition) {
   using std::abs;
   using std::sqrt;
+  if (!is_autonomous(system)) {
+    throw Error(
+        ErrorKind::usage,
+        "event: the system depends on the time, must be one whose flow is the same at every "
+        "start");
+  }
   const SharedSystem shared(system);
   const SharedSystem crossing(time_scaled_first_order(system));
   const SpacePointer space = SeriesSpace::create(6, order);
-  FlowProblem<Real> flow;
-  flow.system = shared;
-  flow.space = space;
+  FlowProblem<Real> flow{shared, space, {}, {}, start_time};
   flow.symmetry = FlowSymmetry::none;
   flow.initial_jet = FlowJet<Real>();
   for (std::size_t i = 0; i < 6; ++i) {
@@ -103,6 +108,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     flow.initial_state.clear();
     for (const auto& component : *flow.initial_jet) flow.initial_state.push_back(component[0]);
     *flow.initial_jet = integrate_gauss<Real>(flow, gauss, statistics);
+    flow.start_time = flow.start_time + time;
   };
   advance(near);
   Real time = near;
@@ -149,7 +155,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
 }
 
 template EventMap<InstantiatedReal> event_map(const DynamicalSystem&,
-                                              const SixNumbers<InstantiatedReal>&,
+                                              const SixNumbers<InstantiatedReal>&, const ClockTime&,
                                               const InstantiatedReal&, int, const GaussSettings&,
                                               const EventCondition<InstantiatedReal>&);
 

@@ -71,6 +71,21 @@ void require_meeting(const io::StoredJet& first, const io::StoredJet& second) {
   }
 }
 
+/// Forces that depend on the time let the second jet start only when the first ends; other forces
+/// are the same at every start.
+void require_clocks_meeting(const io::StoredJet& first, const io::StoredJet& second) {
+  if (first.is_autonomous && second.is_autonomous) return;
+  if (first.ephemeris && second.ephemeris) return;  // their dates have been compared
+  const double end = (first.start_time + first.duration).in<double>();
+  const double start = second.start_time.in<double>();
+  const double size = std::abs(first.duration) + std::abs(second.duration) + std::abs(end);
+  if (std::abs(start - end) <= largest_gap * size) return;
+  refuse(
+      fmt::format("compose: the forces depend on the time, and the second jet starts at "
+                  "{:.10g} canonical, must start when the first ends, at {:.10g}",
+                  start, end));
+}
+
 }  // namespace
 
 Jet::Jet(io::StoredJet stored)
@@ -111,6 +126,7 @@ Jet Jet::composed_with(const Jet& after) const {
   }
   require_meeting(stored_, second);
   require_dates_meeting(stored_, second);
+  require_clocks_meeting(stored_, second);
   io::StoredJet result = stored_;
   result.scene =
       stored_.scene == second.scene ? stored_.scene : stored_.scene + ", " + second.scene;
@@ -137,6 +153,7 @@ Jet Jet::inverse() const {
   }
   io::StoredJet result = stored_;
   result.duration = -stored_.duration;
+  result.start_time = stored_.start_time + stored_.duration;
   std::swap(result.nominal_initial, result.nominal_final);
   result.ephemeris = ephemeris_at_end(stored_);
   result.error_by_degree.clear();

@@ -241,6 +241,10 @@ void bind_description(py::class_<Jet, JetPointer>& jet) {
       .def_property_readonly(
           "units", [](const Jet& j) { return j.stored().units; }, "Canonical units in km and s.")
       .def_property_readonly(
+          "start_canonical", [](const Jet& j) { return j.stored().start_time.in<double>(); },
+          "The time of the system's clock at which the flow starts: 0, the epoch, for that of a "
+          "run, the end's for an inverse.")
+      .def_property_readonly(
           "duration_canonical", [](const Jet& j) { return j.stored().duration; },
           "Duration of the flow; negative: backwards.")
       .def_property_readonly(

@@ -78,7 +78,8 @@ using JetState =
     std::tuple<std::string, std::string, std::size_t, std::size_t, double, double, double,
                std::vector<double>, std::vector<double>, std::vector<std::size_t>,
                std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, std::size_t,
-               std::size_t, std::optional<FlowBoxState>, int, std::vector<std::string>>;
+               std::size_t, std::optional<FlowBoxState>, int, double, bool,
+               std::vector<std::string>>;
 
 std::optional<FlowBoxState> state_of(const std::optional<io::StoredFlowBox>& box) {
   if (!box) return std::nullopt;
@@ -89,9 +90,9 @@ std::optional<FlowBoxState> state_of(const std::optional<io::StoredFlowBox>& box
 
 JetState state_of(const io::StoredJet& stored) {
   // The notes are of the file that was read, and have been said.
-  const auto& [scene, label, model, precision, units, duration, nominal_initial, nominal_final,
-               components, variables, ephemeris, error_by_degree, coordinates, flow_box, notes,
-               own_names, jet] = stored;
+  const auto& [scene, label, model, precision, units, duration, start_time, is_autonomous,
+               nominal_initial, nominal_final, components, variables, ephemeris, error_by_degree,
+               coordinates, flow_box, notes, own_names, jet] = stored;
   return {scene,
           label,
           static_cast<std::size_t>(model),
@@ -109,6 +110,8 @@ JetState state_of(const io::StoredJet& stored) {
           static_cast<std::size_t>(coordinates.end),
           state_of(flow_box),
           jet.at(0).order(),
+          start_time.in<double>(),
+          is_autonomous,
           own_names};
 }
 
@@ -141,15 +144,18 @@ io::StoredJet stored_jet_of(const JetState& state) {
   std::size_t start = 0;
   std::size_t end = 0;
   std::optional<FlowBoxState> flow_box;
+  double start_time = 0;
   std::tie(jet.scene, jet.label, model, precision, jet.units.length_km, jet.units.time_s,
            jet.duration, jet.nominal_initial, jet.nominal_final, jet.components, jet.variables,
-           ephemeris, jet.error_by_degree, start, end, flow_box, std::ignore, jet.own_names) =
-      state;
+           ephemeris, jet.error_by_degree, start, end, flow_box, std::ignore, start_time,
+           jet.is_autonomous, jet.own_names) = state;
   constexpr std::size_t coordinates = jet_coordinates_names.size();
   if (model >= model_names().size() || precision > 1 || start >= coordinates ||
       end >= coordinates) {
     refuse_state();
   }
+  if (!std::isfinite(start_time)) refuse_state();
+  jet.start_time = ClockTime(start_time);
   jet.model = static_cast<SystemModel>(model);
   jet.precision = static_cast<Precision>(precision);
   if (ephemeris) jet.ephemeris = ephemeris_of(*ephemeris);

@@ -8,11 +8,24 @@ std::vector<Extended> extended(const std::vector<double>& state) {
   return {state.begin(), state.end()};
 }
 
-EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start)
-    : hamiltonian_(system.hamiltonian), initial_(value(extended(start))) {}
+namespace {
 
-Extended EnergyError::value(const std::vector<Extended>& state) {
-  hamiltonian_.evaluate(state);
+template <class Function>
+void evaluate_at(Function& function, const std::vector<Extended>& state, const ClockTime& time) {
+  if constexpr (requires { function.has_time(); }) {
+    if (function.has_time()) return function.evaluate(state, time.in<Extended>());
+  }
+  function.evaluate(state);
+}
+
+}  // namespace
+
+EnergyError::EnergyError(const DynamicalSystem& system, const std::vector<double>& start,
+                         const ClockTime& start_time)
+    : hamiltonian_(system.hamiltonian), initial_(value(extended(start), start_time)) {}
+
+Extended EnergyError::value(const std::vector<Extended>& state, const ClockTime& time) {
+  evaluate_at(hamiltonian_, state, time);
   return hamiltonian_.value(0);
 }
 
@@ -28,8 +41,8 @@ double EnergyError::terms(const std::vector<Extended>& state) const {
   return sum;
 }
 
-double EnergyError::error(const std::vector<Extended>& state) {
-  return relative(value(state) - initial_);
+double EnergyError::error(const std::vector<Extended>& state, const ClockTime& time) {
+  return relative(value(state, time) - initial_);
 }
 
 }  // namespace hamjet

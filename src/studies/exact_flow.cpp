@@ -11,17 +11,17 @@ std::vector<double> nominal_of(const FlowJet<double>& jet) {
 }
 
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
-                                       double duration) {
-  return {system, SeriesSpace::create(1, 0), {0}, start, duration};
+                                       const ClockTime& start_time, double duration) {
+  return {system, SeriesSpace::create(1, 0), {0}, start, start_time, duration};
 }
 
 std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
-                               double duration) {
+                               const ClockTime& start_time, double duration) {
   GaussSettings settings;
   settings.tolerance = 1e-13;
   IntegrationStatistics statistics;
-  return nominal_of(
-      integrate_gauss(trajectory_problem(system, start, duration), settings, statistics));
+  return nominal_of(integrate_gauss(trajectory_problem(system, start, start_time, duration),
+                                    settings, statistics));
 }
 
 }  // namespace hamjet

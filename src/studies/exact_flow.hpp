@@ -9,13 +9,15 @@ namespace hamjet {
 /// The nominal's final state: the constant terms of a jet.
 std::vector<double> nominal_of(const FlowJet<double>& jet);
 
-/// A flow problem for the trajectory alone, with series of order 0.
+/// A flow problem for the trajectory alone, with series of order 0. The start stands at
+/// `start_time` of the system's clock.
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
-                                       double duration);
+                                       const ClockTime& start_time, double duration);
 
-/// The final state of the flow with the full equations of motion, to the precision of double.
+/// The final state of the flow with the full equations of motion, to the precision of double, of
+/// the state that stands at `start_time` of the system's clock.
 /// Throws as integrate_gauss.
 std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
-                               double duration);
+                               const ClockTime& start_time, double duration);
 
 }  // namespace hamjet

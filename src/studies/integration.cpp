@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../algebra/raise_to.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../integrators/symmetry/symmetry_reduction.hpp"
@@ -27,7 +28,8 @@
 namespace hamjet {
 template <class Real>
 FlowProblem<Real> flow_problem(const ComputedProblem& problem, double duration) {
-  FlowProblem<Real> flow{problem.system, problem.space, problem.variables, {}, Real(duration)};
+  FlowProblem<Real> flow{problem.system,     problem.space, problem.variables, {},
+                         problem.start_time, Real(duration)};
   for (const double x : problem.nominal) flow.initial_state.emplace_back(x);
   flow.symmetry = problem.symmetry;
   return flow;
@@ -60,10 +62,16 @@ bool has_stability_limit(const IntegratorSettings& settings) {
          settings.step_canonical.has_value();
 }
 
+/// Whether the steps of a method are all the same linear map, whose limit is that of one step.
+bool has_constant_coefficients(const DynamicalSystem& system) {
+  return system.vector_field.is_linear_system() && is_autonomous(system);
+}
+
 /// The matrix of one step on a linear system.
-Matrix<double> step_matrix(const SharedSystem& system, IntegratorSettings settings, double step) {
+Matrix<double> step_matrix(const SharedSystem& system, IntegratorSettings settings,
+                           const ClockTime& start_time, double step) {
   const std::size_t size = system->dimension();
-  FlowProblem<double> problem{system, SeriesSpace::create(size, 1), {}, {}, step};
+  FlowProblem<double> problem{system, SeriesSpace::create(size, 1), {}, {}, start_time, step};
   problem.variables.resize(size);
   std::iota(problem.variables.begin(), problem.variables.end(), std::size_t{0});
   problem.initial_state.assign(size, 0);
@@ -74,13 +82,13 @@ Matrix<double> step_matrix(const SharedSystem& system, IntegratorSettings settin
 }
 
 void require_stable_steps(const SharedSystem& system, const IntegratorSettings& settings,
-                          double duration) {
+                          const ClockTime& start_time, double duration) {
   const double count = std::ceil(std::abs(duration) / *settings.step_canonical * (1 - 1e-12));
   if (!(count >= 1)) return;
   const MethodDescription& method = description_of(settings.method);
-  require_stable_steps(*system, {std::string(method.name),
-                                 [&](double step) { return step_matrix(system, settings, step); },
-                                 duration / count, duration, method.preserves_a_two_form});
+  const auto matrix = [&](double step) { return step_matrix(system, settings, start_time, step); };
+  require_stable_steps(*system, {std::string(method.name), matrix, duration / count, duration,
+                                 method.preserves_a_two_form});
 }
 
 ErrorEstimateSettings estimate_settings(const Scene& scene,
@@ -98,8 +106,9 @@ template <class Real>
 FlowJet<Real> integrate(const FlowProblem<Real>& flow, const IntegratorSettings& settings,
                         IntegrationStatistics& statistics, const StepObserver<Real>& observer,
                         bool records_step_error) {
-  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
-    require_stable_steps(flow.system, settings, static_cast<double>(flow.duration));
+  if (has_stability_limit(settings) && has_constant_coefficients(*flow.system)) {
+    require_stable_steps(flow.system, settings, flow.start_time,
+                         static_cast<double>(flow.duration));
   }
   return integrate_unchecked<Real>(flow, settings, statistics, observer, records_step_error);
 }
@@ -109,8 +118,9 @@ FlowJet<Real> integrate_split(const FlowProblem<Real>& flow, const IntegratorSet
                               const ArcSettings& arcs, IntegrationStatistics& statistics,
                               ArcStatistics& arc_statistics, const StepObserver<Real>& observer,
                               const ArcProgress& progress, bool records_step_error) {
-  if (has_stability_limit(settings) && flow.system->vector_field.is_linear_system()) {
-    require_stable_steps(flow.system, settings, static_cast<double>(flow.duration));
+  if (has_stability_limit(settings) && has_constant_coefficients(*flow.system)) {
+    require_stable_steps(flow.system, settings, flow.start_time,
+                         static_cast<double>(flow.duration));
   }
   SplittableMethod method = splittable_method(settings);
   if (auto* gauss = std::get_if<GaussSettings>(&method)) {

@@ -11,7 +11,9 @@
 namespace hamjet {
 
 JetPropagation::JetPropagation(const ComputedProblem& problem, const IntegratorSettings& settings)
-    : settings_(&settings), flow_(flow_problem<double>(problem, 0)) {
+    : settings_(&settings),
+      start_time_(problem.start_time),
+      flow_(flow_problem<double>(problem, 0)) {
   if (description_of(settings.method).splittable(settings)) {
     // A symmetry is left out for any duration except zero.
     FlowProblem<double> moving = flow_;
@@ -30,6 +32,7 @@ FlowJet<double> JetPropagation::advance_to(double time) {
   IntegrationStatistics statistics;
   flow_.initial_jet = integrate<double>(flow_, *settings_, statistics, {});
   add_integration(total_, statistics);
+  flow_.start_time = start_time_ + time;
   reached_ = time;
   return reduction_ ? reduction_->expand(*flow_.initial_jet) : *flow_.initial_jet;
 }

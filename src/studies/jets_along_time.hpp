@@ -17,10 +17,11 @@ class SymmetryReduction;
 /// and put back in the jets that are returned.
 class JetPropagation {
  public:
-  /// Starts at time 0 with the identity. `problem` and `settings` must outlive this object.
+  /// Starts with the identity at the problem's start, from which times are counted. `problem` and
+  /// `settings` must outlive this object.
   JetPropagation(const ComputedProblem& problem, const IntegratorSettings& settings);
 
-  /// The jet at a time in the system's own unit. Throws as the integrator.
+  /// The jet a time, in the system's own unit, after the start. Throws as the integrator.
   FlowJet<double> advance_to(double time);
 
   double time() const { return reached_; }
@@ -30,8 +31,9 @@ class JetPropagation {
  private:
   const IntegratorSettings* settings_;
   std::shared_ptr<const SymmetryReduction<double>> reduction_;  ///< null if no symmetry is left out
-  FlowProblem<double> flow_;
-  double reached_ = 0;
+  ClockTime start_time_;
+  FlowProblem<double> flow_;  ///< from the time that was reached
+  double reached_ = 0;        ///< since the start
   IntegrationStatistics total_;
 };
 

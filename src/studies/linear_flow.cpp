@@ -8,6 +8,7 @@
 #include <span>
 
 #include "../algebra/matrix_eigenvalues.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
@@ -49,10 +50,11 @@ FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
 }
 
 LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
-                     const std::vector<double>& start, double duration) {
+                     const std::vector<double>& start, const ClockTime& start_time,
+                     double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  FlowProblem<double> flow{problem.system, space, variables, start, duration};
+  FlowProblem<double> flow{problem.system, space, variables, start, start_time, duration};
   // One step of order 1 is cheaper than leaving a symmetry out and putting it back.
   flow.symmetry = FlowSymmetry::none;
   const FlowJet<double> jet = precise_jet(flow);
@@ -78,11 +80,12 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   double step = std::abs(duration) / per_revolution;
   while (times_.back() != duration) {
     step = std::min({2 * step, std::abs(duration) / per_revolution,
-                     checkpoint_distance(states_.back(), per_revolution)});
+                     checkpoint_distance(states_.back(), times_.back(), per_revolution)});
     const double left = std::abs(duration - times_.back());
     const double time =
         left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem, space_, states_.back(), time - times_.back());
+    LinearArc arc = linear_arc(problem, space_, states_.back(), problem.start_time + times_.back(),
+                               time - times_.back());
     matrices_.push_back(arc.matrix * matrices_.back());
     states_.push_back(std::move(arc.state));
     times_.push_back(time);
@@ -106,13 +109,14 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   }
 }
 
-double LinearFlow::checkpoint_distance(const std::vector<double>& state,
+double LinearFlow::checkpoint_distance(const std::vector<double>& state, double time,
                                        double per_revolution) const {
   std::vector<Series<double>> z;
   for (std::size_t i = 0; i < state.size(); ++i) {
     z.push_back(Series<double>::variable(space_, i, state[i]));
   }
-  const auto slope = evaluate_on_series(problem_->system->vector_field, z);
+  const auto slope =
+      evaluate_on_series(frozen_at(problem_->system->vector_field, problem_->start_time + time), z);
   // Positions and momenta of similar size preserve the digits of the eigenvalues.
   const Matrix<double> linear =
       in_momentum_unit<Matrix<double>>(linear_part(slope), problem_->momentum_exponent);
@@ -129,14 +133,16 @@ std::size_t LinearFlow::checkpoint_before(double time) const {
 
 std::vector<double> LinearFlow::nominal(double time) const {
   const std::size_t before = checkpoint_before(time);
-  return exact_flow(problem_->system, states_[before], time - times_[before]);
+  return exact_flow(problem_->system, states_[before], problem_->start_time + times_[before],
+                    time - times_[before]);
 }
 
 LinearFlow::StateTransition LinearFlow::at(double time) const {
   const std::size_t before = checkpoint_before(time);
   if (time == times_[before]) return matrices_[before];
-  return linear_arc(*problem_, space_, states_[before], time - times_[before]).matrix *
-         matrices_[before];
+  const LinearArc arc = linear_arc(*problem_, space_, states_[before],
+                                   problem_->start_time + times_[before], time - times_[before]);
+  return arc.matrix * matrices_[before];
 }
 
 }  // namespace hamjet

@@ -92,8 +92,9 @@ LowestPointSearch::Point LowestPointSearch::advanced(const Point& start, double 
   GaussSettings gauss;
   gauss.tolerance = refinement_tolerance;
   IntegrationStatistics statistics;
-  const auto jet = integrate_gauss(trajectory_problem(problem_.system, start.state, duration),
-                                   gauss, statistics);
+  const auto jet = integrate_gauss(
+      trajectory_problem(problem_.system, start.state, problem_.start_time + start.time, duration),
+      gauss, statistics);
   return point(start.time + duration, nominal_of(jet), direction);
 }
 

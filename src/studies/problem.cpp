@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "../dynamics/autonomy.hpp"
 #include "../integrators/arc_plan.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "arcs.hpp"
@@ -150,6 +151,7 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   problem.components = problem.degrees_of_freedom;
   for (const std::size_t i : problem.degrees_of_freedom) problem.components.push_back(n + i);
   for (const std::size_t c : problem.components) problem.nominal.push_back(scene.nominal[c]);
+  problem.start_time = scene.start_time;
   for (const std::size_t v : scene.variables) {
     const auto place = std::find(problem.components.begin(), problem.components.end(), v);
     problem.variables.push_back(
@@ -157,6 +159,12 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   }
   problem.is_full_jet = problem.variables.size() == problem.components.size();
   problem.symmetry = scene.symmetry;
+  if (has_time_shift(scene.symmetry) && !is_autonomous(full)) {
+    throw Error(
+        ErrorKind::scene,
+        "jet.symmetry: got \"rotation-and-time\", but the forces depend on the time, so that "
+        "no shift in time is a symmetry; must be \"rotation\" or \"none\"");
+  }
   problem.momentum_exponent =
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const double needed = estimate_memory(scene, *problem.system, scene.variables.size(), threads);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "../dynamics/autonomy.hpp"
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
 #include "formation/charted_jet.hpp"
@@ -108,8 +109,9 @@ void add_relative_hamiltonians(PropagationResult& result,
   follow_nominal(
       problem, times, scene.precision == Precision::extended ? 1e-28 : 1e-20,
       [&](std::size_t k, const std::vector<Extended>& state) {
+        const SharedSystem then = frozen_at(problem.system, problem.start_time + times[k]);
         result.relative_hamiltonians.push_back(
-            {times[k], relative_hamiltonian<Extended>(*problem.system, state, scene.order)});
+            {times[k], relative_hamiltonian<Extended>(*then, state, scene.order)});
       },
       [&](double time) { progress(time / scene.duration); });
 }

@@ -30,7 +30,8 @@ template <class Real>
 FlowJet<Extended> integrate_in(const ComputedProblem& problem, double duration,
                                const GaussSettings& settings, IntegrationStatistics& statistics,
                                const std::function<void(double)>& observe) {
-  FlowProblem<Real> flow{problem.system, problem.space, problem.variables, {}, Real(duration)};
+  FlowProblem<Real> flow{problem.system,     problem.space, problem.variables, {},
+                         problem.start_time, Real(duration)};
   // The reference must share nothing with the runs that it judges, because an error in a shared
   // part would not show.
   flow.symmetry = FlowSymmetry::none;

@@ -103,10 +103,10 @@ enum class KeyOf { reference, comparison };
 /// that it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
-               duration, order, arcs, symmetry, coordinates, variables, jet_times, integrators,
-               separation, kinds, reference, relative_hamiltonian_times, checks, comparison, figure,
-               deputy, transfer, validity, assignment, uncertainty, bounded, event, output,
-               ephemeris, nominal_file, warnings, own_system] = scene;
+               start_time, duration, order, arcs, symmetry, coordinates, variables, jet_times,
+               integrators, separation, kinds, reference, relative_hamiltonian_times, checks,
+               comparison, figure, deputy, transfer, validity, assignment, uncertainty, bounded,
+               event, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of the data that are kept under it
   key.add("reference stages", reference_stages);
@@ -119,6 +119,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   if (own_system) key.add("own system", system_text(*own_system));
   key.add("radius", canonical_radius);
   key.add("nominal", nominal);
+  if (start_time != ClockTime::epoch()) key.add("start", start_time.in<Extended>().str());
   key.add("duration", duration);
   key.add("order", jet_order);
   key.add("variables", variables);

@@ -8,6 +8,7 @@
 #include "../algebra/scalar_search.hpp"
 #include "../charts/carried_states.hpp"
 #include "../charts/time_scaled_system.hpp"
+#include "../dynamics/autonomy.hpp"
 #include "encounter_trajectories.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -97,6 +98,11 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
 
 std::vector<ClosestApproach> closest_approaches(const EncounterProblem& problem, std::size_t most) {
   validate(problem);
+  if (!is_autonomous(*problem.system)) {
+    throw Error(ErrorKind::usage,
+                "closest approach: the system depends on the time, must be one whose flow is the "
+                "same at every start");
+  }
   if (problem.order > highest_order) {
     throw Error(ErrorKind::too_large,
                 fmt::format("closest approach: series in twelve variables of order {}, at most {} "

@@ -17,16 +17,14 @@ constexpr std::size_t most_looks = 200000;
 
 /// The jets of one spacecraft in the window.
 JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft) {
-  FlowProblem<double> flow;
-  flow.system = problem.system;
-  flow.space = SeriesSpace::create(6, problem.order);
-  flow.variables = {0, 1, 2, 3, 4, 5};
-  flow.initial_state = problem.spacecraft[craft].state;
-  flow.duration = problem.from;
+  FlowProblem<double> flow{problem.system,     SeriesSpace::create(6, problem.order),
+                           {0, 1, 2, 3, 4, 5}, problem.spacecraft[craft].state,
+                           problem.start_time, problem.from};
   if (problem.from != 0) {
     IntegrationStatistics statistics;
     flow.initial_jet = integrate_gauss(flow, problem.settings, statistics);
     for (std::size_t i = 0; i < 6; ++i) flow.initial_state[i] = (*flow.initial_jet)[i][0];
+    flow.start_time = problem.start_time + problem.from;
   }
   flow.duration = problem.to - problem.from;
   return {flow, problem.settings};

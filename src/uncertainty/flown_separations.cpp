@@ -35,7 +35,9 @@ class Pairs {
         states_.insert(states_.end(), start.begin(), start.end());
       }
     }
-    if (problem.from != 0) flow_.advance(states_, std::vector<double>(2 * count_, problem.from));
+    if (problem.from != 0) {
+      flow_.advance(states_, problem.start_time, std::vector<double>(2 * count_, problem.from));
+    }
   }
 
   std::vector<double> least_squares() {
@@ -44,7 +46,8 @@ class Pairs {
     while (std::any_of(left.begin(), left.end(), [](double time) { return time > 0; })) {
       // Lanes without a state of their own repeat the first one, so that their numbers are finite.
       for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
-        flow_.set_state(lane, state(lane < 2 * count_ ? lane : 0));
+        const std::size_t own = lane < 2 * count_ ? lane : 0;
+        flow_.set_state(lane, problem_->start_time + (problem_->to - left[own / 2]), state(own));
       }
       flow_.expand();
       for (std::size_t pair = 0; pair < count_; ++pair) {

@@ -127,12 +127,15 @@ class Ellipsoid {
     }
     const std::vector<double>& mean = problem_->spacecraft[0].state;
     states.insert(states.end(), mean.begin(), mean.end());
-    if (problem_->from != 0) flow.advance(states, std::vector<double>(3, problem_->from));
+    if (problem_->from != 0) {
+      flow.advance(states, problem_->start_time, std::vector<double>(3, problem_->from));
+    }
     double least = never;
     double left = problem_->to - problem_->from;
     while (left > 0) {
       for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
-        flow.set_state(lane, std::span<const double>(states).subspan(6 * (lane % 3), 6));
+        flow.set_state(lane, problem_->start_time + (problem_->to - left),
+                       std::span<const double>(states).subspan(6 * (lane % 3), 6));
       }
       flow.expand();
       const double step = std::min({flow.reach(0), flow.reach(1), flow.reach(2), left});

@@ -17,11 +17,9 @@ using test::bound_orbits;
 using test::ChiefOrbit;
 
 FlowMap<double> jet_of(const ChiefOrbit& orbit, double time, int order) {
-  FlowProblem<double> problem{zonal_gravity(orbit.field),
-                              SeriesSpace::create(6, order),
-                              {0, 1, 2, 3, 4, 5},
-                              {orbit.start.begin(), orbit.start.end()},
-                              time};
+  FlowProblem<double> problem{zonal_gravity(orbit.field), SeriesSpace::create(6, order),
+                              {0, 1, 2, 3, 4, 5},         {orbit.start.begin(), orbit.start.end()},
+                              ClockTime::epoch(),         time};
   GaussSettings settings;
   settings.tolerance = 1e-13;
   IntegrationStatistics statistics;

@@ -17,11 +17,8 @@ using test::ChiefOrbit;
 using test::orbit_of;
 
 SixNumbers<double> flown(const ChiefOrbit& orbit, const SixNumbers<double>& start, double time) {
-  FlowProblem<double> problem{zonal_gravity(orbit.field),
-                              SeriesSpace::create(1, 0),
-                              {0},
-                              {start.begin(), start.end()},
-                              time};
+  FlowProblem<double> problem{zonal_gravity(orbit.field),   SeriesSpace::create(1, 0), {0},
+                              {start.begin(), start.end()}, ClockTime::epoch(),        time};
   IntegrationStatistics statistics;
   const auto jet = integrate_fehlberg78<double>(problem, {.tolerance = 1e-14}, statistics);
   SixNumbers<double> end;

@@ -16,8 +16,8 @@ namespace {
 /// Flies by an explicit method, which shares no code with Gauss's methods or the sections.
 SixNumbers<double> flown_there(const ZonalGravity& field, const SixNumbers<double>& start,
                                double time) {
-  FlowProblem<double> problem{
-      zonal_gravity(field), SeriesSpace::create(1, 0), {0}, {start.begin(), start.end()}, time};
+  FlowProblem<double> problem{zonal_gravity(field),         SeriesSpace::create(1, 0), {0},
+                              {start.begin(), start.end()}, ClockTime::epoch(),        time};
   IntegrationStatistics statistics;
   const auto jet = integrate_fehlberg78<double>(problem, {.tolerance = 1e-14}, statistics);
   SixNumbers<double> end;
@@ -86,11 +86,10 @@ std::vector<test::ChiefOrbit> all_orbits() {
 
 FlowJet<double> jet_of(const test::ChiefOrbit& orbit, double time, int order,
                        const GaussSettings& settings) {
-  const FlowProblem<double> problem{zonal_gravity(orbit.field),
-                                    SeriesSpace::create(6, order),
-                                    {0, 1, 2, 3, 4, 5},
-                                    {orbit.start.begin(), orbit.start.end()},
-                                    time};
+  const FlowProblem<double> problem{
+      zonal_gravity(orbit.field), SeriesSpace::create(6, order),
+      {0, 1, 2, 3, 4, 5},         {orbit.start.begin(), orbit.start.end()},
+      ClockTime::epoch(),         time};
   IntegrationStatistics statistics;
   return integrate_gauss<double>(problem, settings, statistics);
 }

@@ -33,8 +33,8 @@ FlowBoxMap<double> map_of(const ChiefOrbit& orbit, double time, int order,
 /// Flies by an explicit method, which shares no code with Gauss's or Taylor's methods or the
 /// charts.
 SixNumbers<double> flown(const ZonalGravity& field, const SixNumbers<double>& start, double time) {
-  FlowProblem<double> problem{
-      zonal_gravity(field), SeriesSpace::create(1, 0), {0}, {start.begin(), start.end()}, time};
+  FlowProblem<double> problem{zonal_gravity(field),         SeriesSpace::create(1, 0), {0},
+                              {start.begin(), start.end()}, ClockTime::epoch(),        time};
   IntegrationStatistics statistics;
   const auto jet = integrate_fehlberg78<double>(problem, {.tolerance = 1e-14}, statistics);
   SixNumbers<double> end;

@@ -34,6 +34,7 @@ class JetFileTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::vector<Override>& overrides = {}) {
     Scene scene = parse_scene(cubic_kepler, "scene.toml", overrides);
+    scene.start_time = start_time_;
     scene.output.formats = {"dace"};
     if (hdf5_available()) scene.output.formats.emplace_back("hdf5");
     PropagationResult result = propagate(scene);
@@ -54,6 +55,8 @@ class JetFileTest : public ::testing::Test {
     EXPECT_EQ(stored.units.length_km, right.units.length_km);
     EXPECT_EQ(stored.units.time_s, right.units.time_s);
     EXPECT_EQ(stored.duration, right.duration);
+    EXPECT_TRUE(stored.start_time == right.start_time);
+    EXPECT_EQ(stored.is_autonomous, right.is_autonomous);
     EXPECT_EQ(stored.nominal_initial, right.nominal_initial);
     EXPECT_EQ(stored.nominal_final, right.nominal_final);
     EXPECT_EQ(stored.components, right.components);
@@ -98,6 +101,7 @@ class JetFileTest : public ::testing::Test {
     expect_error([&] { read_jet_file(file, label); }, kind, words, words[0]);
   }
 
+  ClockTime start_time_ = ClockTime::epoch();
   const test::TemporaryDirectory temporary_;
   const std::filesystem::path directory_ = temporary_.path() / "results";
 };
@@ -105,6 +109,24 @@ class JetFileTest : public ::testing::Test {
 TEST_F(JetFileTest, ComesBackBitByBit) {
   expect_round_trips({});
   EXPECT_EQ(std::filesystem::exists(directory_ / "jets.h5"), hdf5_available());
+}
+
+// A jet from another time than the epoch says so in every file; 0.1 is no binary fraction.
+TEST_F(JetFileTest, KnowsWhenItStarts) {
+  EXPECT_TRUE(read_jet_file((store(), directory_)).start_time == ClockTime::epoch());
+  start_time_ = ClockTime(-0.1);
+  expect_round_trips({});
+  EXPECT_TRUE(read_jet_file(directory_).start_time == start_time_);
+}
+
+TEST_F(JetFileTest, SaysThatItsForcesDependOnTheTime) {
+  store();
+  StoredJet jet = read_jet_file(directory_);
+  EXPECT_TRUE(jet.is_autonomous);
+  if (!hdf5_available()) return;
+  jet.is_autonomous = false;
+  test::put(directory_ / "copy.h5", jet_file_content(jet, hdf5_format));
+  EXPECT_FALSE(read_jet_file(directory_ / "copy.h5").is_autonomous);
 }
 
 TEST_F(JetFileTest, FewerComponentsAndVariables) {

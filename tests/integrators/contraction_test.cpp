@@ -39,8 +39,8 @@ TEST(Contraction, EndsOneChangeEarlierWhereWhatIsLeftContractsOnceMore) {
 TEST(Contraction, ShortStepsNeedNoNewton) {
   // Guesses that are right to the last bit are not changed; a try then takes a few evaluations.
   const std::vector<double> start = {1, 0, 0, 0, 1, 0};
-  const FlowProblem<double> problem{
-      kepler(), SeriesSpace::create(6, 1), {0, 1, 2, 3, 4, 5}, start, 2.0};
+  const FlowProblem<double> problem{kepler(), SeriesSpace::create(6, 1), {0, 1, 2, 3, 4, 5},
+                                    start,    ClockTime::epoch(),        2.0};
   for (const int stages : {4, 6, 8}) {
     GaussSettings settings;
     settings.stages = stages;

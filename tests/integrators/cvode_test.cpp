@@ -52,7 +52,8 @@ std::string error_text(const FlowProblem<double>& problem, CvodeMethod method, d
 TEST(CvodeAbsent, SaysHowToBuildIt) {
   if (cvode_available()) GTEST_SKIP() << "this build has CVODE";
   const DynamicalSystem system = harmonic_oscillator();
-  const FlowProblem<double> problem{system, SeriesSpace::create(2, 1), {0, 1}, {1, 0}, 1};
+  const FlowProblem<double> problem{system, SeriesSpace::create(2, 1), {0, 1},
+                                    {1, 0}, ClockTime::epoch(),        1};
   const std::string text = error_text(problem, CvodeMethod::bdf, 1e-6, ErrorKind::usage);
   EXPECT_NE(text.find("-DHAMJET_CVODE=ON"), std::string::npos) << text;
 }
@@ -208,8 +209,8 @@ std::vector<double> planar_state(const FlowProblem<double>& problem) {
 TEST(CoefficientBlockSolver, SolvesTheDenseSystem) {
   const std::vector<std::size_t> plane{0, 1};
   const DynamicalSystem system = restrict_system(kepler(), plane);
-  const FlowProblem<double> problem{
-      system, SeriesSpace::create(4, 2), {0, 1, 2, 3}, {1, 0, 0.1, 1.1}, 2.5};
+  const FlowProblem<double> problem{system,           SeriesSpace::create(4, 2), {0, 1, 2, 3},
+                                    {1, 0, 0.1, 1.1}, ClockTime::epoch(),        2.5};
   const std::vector<double> state = planar_state(problem);
   SeriesVectorField<double> field(problem, "test");
   const std::size_t n = field.size();
@@ -254,7 +255,8 @@ TEST(CoefficientBlockSolver, SolvesTheDenseSystem) {
 
 TEST(CoefficientBlockSolver, ReportsSingularAndNotFiniteMatrices) {
   const DynamicalSystem system = harmonic_oscillator();
-  const FlowProblem<double> oscillator{system, SeriesSpace::create(2, 1), {0, 1}, {1, 0}, 1};
+  const FlowProblem<double> oscillator{system, SeriesSpace::create(2, 1), {0, 1},
+                                       {1, 0}, ClockTime::epoch(),        1};
   CoefficientBlockSolver solver(oscillator);
   const std::vector<double> state(6, 1.0);
   ASSERT_TRUE(solver.evaluate(state.data()));

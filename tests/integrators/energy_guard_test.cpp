@@ -15,7 +15,7 @@ namespace hamjet {
 namespace {
 
 FlowProblem<double> constant_problem(const SharedSystem& system, const std::vector<double>& start) {
-  return {system, SeriesSpace::create(1, 0), {0}, start, 1.0};
+  return {system, SeriesSpace::create(1, 0), {0}, start, ClockTime::epoch(), 1.0};
 }
 
 // A circle whose speed has become that of a parabola is another orbit, however coarse the tolerance

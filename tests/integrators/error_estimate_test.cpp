@@ -23,8 +23,12 @@ namespace {
 
 struct Orbit {
   DynamicalSystem system = kepler();
-  FlowProblem<double> problem{
-      system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, {1, 0, 0, 0, 0.9, 0.7}, 7};
+  FlowProblem<double> problem{system,
+                              SeriesSpace::create(6, 3),
+                              {0, 1, 2, 3, 4, 5},
+                              {1, 0, 0, 0, 0.9, 0.7},
+                              ClockTime::epoch(),
+                              7};
 
   FlowJet<double> jet(double tolerance = 1e-13) const {
     GaussSettings settings;
@@ -156,7 +160,8 @@ TEST(ErrorEstimate, IsZeroWhereTheJetIsExact) {
   }
   // The slices of a linear system vanish above degree 1.
   const DynamicalSystem oscillator = harmonic_oscillator();
-  const FlowProblem<double> linear{oscillator, SeriesSpace::create(2, 3), {0, 1}, {1, 0}, 5};
+  const FlowProblem<double> linear{oscillator, SeriesSpace::create(2, 3), {0, 1},
+                                   {1, 0},     ClockTime::epoch(),        5};
   GaussSettings settings;
   settings.tolerance = 1e-12;
   IntegrationStatistics statistics;
@@ -199,8 +204,12 @@ TEST(RoundingSample, IsWhatTheMapMakesOfHalfAUnit) {
 // Ten times the sample is above the rounding error of the jet, which extended precision shows.
 TEST(RoundingSample, IsOfTheSizeOfRounding) {
   const DynamicalSystem system = kepler();
-  const FlowProblem<double> problem{
-      system, SeriesSpace::create(6, 2), {0, 1, 2, 3, 4, 5}, {0.1, 0, 0, 0, 3, 3.14}, 20};
+  const FlowProblem<double> problem{system,
+                                    SeriesSpace::create(6, 2),
+                                    {0, 1, 2, 3, 4, 5},
+                                    {0.1, 0, 0, 0, 3, 3.14},
+                                    ClockTime::epoch(),
+                                    20};
   GaussSettings settings;
   settings.tolerance = 1e-12;
   settings.controls_all_degrees = true;
@@ -210,7 +219,8 @@ TEST(RoundingSample, IsOfTheSizeOfRounding) {
     IntegrationStatistics of_line;
     return integrate_gauss<double>(line, settings, of_line);
   });
-  FlowProblem<Extended> exact{problem.system, problem.space, problem.variables, {}, 20};
+  FlowProblem<Extended> exact{
+      problem.system, problem.space, problem.variables, {}, problem.start_time, 20};
   for (const double x : problem.initial_state) exact.initial_state.emplace_back(x);
   GaussSettings fine = settings;
   fine.stages = 12;

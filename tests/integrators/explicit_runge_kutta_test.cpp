@@ -85,7 +85,8 @@ TEST(Fehlberg78, HasOrderEight) {
   const DynamicalSystem system = kepler();
   const Extended pi = acos(Extended(-1));
   const FlowProblem<Extended> problem{
-      system, SeriesSpace::create(1, 2), {4}, {1, 0, 0, 0, 1, 0}, Extended(2 * pi)};
+      system,          SeriesSpace::create(1, 2), {4}, {1, 0, 0, 0, 1, 0}, ClockTime::epoch(),
+      Extended(2 * pi)};
   std::vector<std::vector<double>> errors;
   const std::vector<int> steps{40, 57, 80, 113, 160};
   for (const int n : steps) {

@@ -14,7 +14,8 @@ namespace {
 /// destroyed or changed.
 FlowProblem<double> problem_alone() {
   DynamicalSystem system = harmonic_oscillator(1, 1);
-  FlowProblem<double> problem{system, SeriesSpace::create(2, 1), {0, 1}, {1, 0}, 0.25};
+  FlowProblem<double> problem{system, SeriesSpace::create(2, 1), {0, 1},
+                              {1, 0}, ClockTime::epoch(),        0.25};
   IntegrationStatistics statistics;
   const auto earlier = integrate_gauss<double>(problem, test::adaptive(), statistics);
   problem.initial_state = test::final_state(earlier);

@@ -47,13 +47,12 @@ States orbits_of_axis_one(std::size_t count) {
 }
 
 FlowProblem<double> problem_of(const DynamicalSystem& system, int order, double duration) {
-  FlowProblem<double> problem;
-  problem.system = system;
-  problem.space = SeriesSpace::create(system.dimension(), order);
-  problem.variables.resize(system.dimension());
+  const std::size_t size = system.dimension();
+  FlowProblem<double> problem{system,  SeriesSpace::create(size, order), {}, {}, ClockTime::epoch(),
+                              duration};
+  problem.variables.resize(size);
   std::iota(problem.variables.begin(), problem.variables.end(), std::size_t{0});
-  problem.initial_state.assign(system.dimension(), 0);
-  problem.duration = duration;
+  problem.initial_state.assign(size, 0);
   return problem;
 }
 

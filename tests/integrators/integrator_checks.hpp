@@ -22,6 +22,7 @@ FlowProblem<Real> orbit_problem(const DynamicalSystem& system, int order, double
           SeriesSpace::create(6, order),
           {0, 1, 2, 3, 4, 5},
           {start.begin(), start.end()},
+          ClockTime::epoch(),
           Real(duration)};
 }
 
@@ -118,7 +119,9 @@ Convergence convergence(const Flow<Real>& flow, const FlowJet<Real>& expected,
 /// q and p of an oscillator of mass 2 and stiffness 0.5 (frequency 1/2), from q = 0.3, p = -0.7.
 template <class Real = double>
 FlowProblem<Real> oscillator_problem(const DynamicalSystem& system, double duration) {
-  return {system, SeriesSpace::create(2, 3), {0, 1}, {Real(0.3), Real(-0.7)}, Real(duration)};
+  return {
+      system,        SeriesSpace::create(2, 3), {0, 1}, {Real(0.3), Real(-0.7)}, ClockTime::epoch(),
+      Real(duration)};
 }
 
 /// The closed form of this oscillator, with m w = 1: q = q0 cos wt + p0 sin wt, p = p0 cos wt - q0

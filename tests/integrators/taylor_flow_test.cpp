@@ -30,7 +30,7 @@ TEST(TaylorFlow, CarriesEachLaneByItsOwnTime) {
   std::vector<double> states;
   for (std::size_t k = 0; k < times.size(); ++k)
     states.insert(states.end(), start.begin(), start.end());
-  TaylorFlow(system).advance(states, times);
+  TaylorFlow(system).advance(states, ClockTime::epoch(), times);
   for (std::size_t k = 0; k < times.size(); ++k) {
     test::Flow<Extended> flow{*system, {start.begin(), start.end()}, Extended(times[k]), 1, {}};
     const auto exact = test::final_state(test::run_gauss(flow, test::adaptive(8, 1e-22)));
@@ -51,10 +51,10 @@ TEST(TaylorFlow, ALaneDoesNotDependOnTheOthers) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     together.insert(together.end(), start.begin(), start.end());
   }
-  TaylorFlow(system).advance(together, times);
+  TaylorFlow(system).advance(together, ClockTime::epoch(), times);
   for (std::size_t k = 0; k < times.size(); ++k) {
     std::vector<double> alone = start;
-    TaylorFlow(system).advance(alone, std::span(&times[k], 1));
+    TaylorFlow(system).advance(alone, ClockTime::epoch(), std::span(&times[k], 1));
     for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(alone[i], together[6 * k + i]) << times[k];
   }
 }
@@ -62,7 +62,8 @@ TEST(TaylorFlow, ALaneDoesNotDependOnTheOthers) {
 TEST(TaylorFlow, SaysHowFarItsPolynomialReaches) {
   const SharedSystem system = oblate();
   TaylorFlow flow(system);
-  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) flow.set_state(lane, start);
+  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane)
+    flow.set_state(lane, ClockTime::epoch(), start);
   flow.expand();
   const double reach = flow.reach(0);
   EXPECT_GT(reach, 0.1);
@@ -81,7 +82,8 @@ TEST(TaylorFlow, SaysHowFarItsPolynomialReaches) {
 TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
   const SharedSystem system = oblate();
   TaylorFlow flow(system);
-  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) flow.set_state(lane, start);
+  for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane)
+    flow.set_state(lane, ClockTime::epoch(), start);
   int last = 0;
   for (const double time : {1e-4, 0.003, 0.03, -0.15}) {
     flow.expand(std::vector<double>{0.5 * time, time});
@@ -114,13 +116,13 @@ TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
     std::vector<double> states = pericentre;
     states.insert(states.end(), start.begin(), start.end());
     TaylorFlow flow{SharedSystem(kepler())};
-    flow.advance(states, std::vector<double>{half, 0.5});
+    flow.advance(states, ClockTime::epoch(), std::vector<double>{half, 0.5});
     EXPECT_NEAR(states[0], -a * (1 + e), 1e-14 * a);
     EXPECT_NEAR(states[1], 0, 1e-13 * a);
     EXPECT_NEAR(states[3], 0, 1e-13 * speed);
     EXPECT_NEAR(states[4], -speed * (1 - e) / (1 + e), 1e-14 * speed);
     // The reach of one polynomial is proportional to the time scale of the orbit.
-    flow.set_state(0, pericentre);
+    flow.set_state(0, ClockTime::epoch(), pericentre);
     flow.expand();
     EXPECT_NEAR(flow.reach(0) / half, 0.016, 0.01);
     EXPECT_EQ(flow.within_reach(0, half), flow.reach(0));
@@ -130,7 +132,8 @@ TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
 // If the square of a distance is below binary64 and the force is not finite, there is no result.
 TEST(TaylorFlow, MarksAForceThatIsNotFinite) {
   std::vector<double> states = {1e-200, 0, 0, 0, 1e100, 0};
-  TaylorFlow{SharedSystem(kepler())}.advance(states, std::vector<double>{1e-300});
+  TaylorFlow{SharedSystem(kepler())}.advance(states, ClockTime::epoch(),
+                                             std::vector<double>{1e-300});
   EXPECT_TRUE(std::isnan(states[0]));
 }
 
@@ -139,8 +142,8 @@ TEST(TaylorFlow, MarksCollisionsAndLeavesTheOthers) {
   states.insert(states.end(), start.begin(), start.end());
   std::vector<double> alone(start);
   TaylorFlow flow{SharedSystem(kepler())};
-  flow.advance(states, std::vector<double>{2.0, 2.0});
-  flow.advance(alone, std::vector<double>{2.0});
+  flow.advance(states, ClockTime::epoch(), std::vector<double>{2.0, 2.0});
+  flow.advance(alone, ClockTime::epoch(), std::vector<double>{2.0});
   EXPECT_TRUE(std::isnan(states[0]));
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(states[6 + i], alone[i]);
 }

@@ -46,8 +46,8 @@ TEST(EventMap, PredictsEventsOfDeputiesThatAreFlownIndependently) {
   orbit.field = test::egm96(orbit.field.radius);
   const IndependentFlight flight(orbit.field);
   const auto try_condition = [&](const EventCondition<double>& condition, double near) {
-    const auto map =
-        event_map<double>(zonal_gravity(orbit.field), orbit.start, near, 3, event_gauss, condition);
+    const auto map = event_map<double>(zonal_gravity(orbit.field), orbit.start, ClockTime::epoch(),
+                                       near, 3, event_gauss, condition);
     const auto miss = [&](double size) {
       std::mt19937_64 generator(7);
       double largest = 0;
@@ -79,8 +79,8 @@ TEST(EventMap, HasTheTimesOfKeplersCircles) {
   const double c = std::cos(inclination), s = std::sin(inclination);
   // From the descending node to the ascending one, half a turn.
   const SixNumbers<double> chief = {-1, 0, 0, 0, -c, -s};
-  const auto map =
-      event_map<double>(kepler(), chief, 3.0, 4, event_gauss, EventCondition<double>(height));
+  const auto map = event_map<double>(kepler(), chief, ClockTime::epoch(), 3.0, 4, event_gauss,
+                                     EventCondition<double>(height));
   EXPECT_NEAR(map.time[0], std::numbers::pi, 1e-13);
   for (const double dr : {1e-2, -2e-2}) {
     const double r = 1 + dr;
@@ -99,8 +99,8 @@ TEST(EventMap, FindsTheNodeInAnyUnitOfLength) {
   for (const double r : {4.7e-5, 1e-3, 1.0, 7e6, 1e9}) {
     const double speed = 1 / std::sqrt(r), time = r * std::sqrt(r);
     const SixNumbers<double> chief = {-r, 0, 0, 0, -c * speed, -s * speed};
-    const auto map = event_map<double>(kepler(), chief, 3.0 * time, 2, event_gauss,
-                                       EventCondition<double>(height));
+    const auto map = event_map<double>(kepler(), chief, ClockTime::epoch(), 3.0 * time, 2,
+                                       event_gauss, EventCondition<double>(height));
     EXPECT_NEAR(map.time[0] / time, std::numbers::pi, 1e-13) << r;
     EXPECT_NEAR(map.state[0][0] / r, 1, 1e-13) << r;
   }
@@ -110,13 +110,13 @@ TEST(EventMap, FindsTheNodeInAnyUnitOfLength) {
 TEST(EventMap, RefusesASurfaceThatTheFlowTouches) {
   const SixNumbers<double> circle = {1, 0, 0, 0, 1, 0};
   const auto highest = [](const SixNumbers<Series<double>>& z) { return z[1] - 1.0; };
-  EXPECT_THROW(event_map<double>(kepler(), circle, std::numbers::pi / 2, 2, event_gauss,
-                                 EventCondition<double>(highest)),
+  EXPECT_THROW(event_map<double>(kepler(), circle, ClockTime::epoch(), std::numbers::pi / 2, 2,
+                                 event_gauss, EventCondition<double>(highest)),
                Error);
   const auto never = [](const SixNumbers<Series<double>>& z) { return z[1] - 3.0; };
-  EXPECT_THROW(
-      event_map<double>(kepler(), circle, 1.0, 2, event_gauss, EventCondition<double>(never)),
-      Error);
+  EXPECT_THROW(event_map<double>(kepler(), circle, ClockTime::epoch(), 1.0, 2, event_gauss,
+                                 EventCondition<double>(never)),
+               Error);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 """Jets: what they hold, evaluation, composition and inverses."""
 
 import gc
+import pickle
 import warnings
 
 import numpy as np
@@ -159,6 +160,9 @@ def test_keplers_jet_is_the_closed_form():
 def test_a_jet_and_its_inverse_are_the_identity(jet):
     inverse = jet.inverse()
     assert inverse.duration_canonical == -5
+    assert (jet.start_canonical, inverse.start_canonical) == (0, 5)
+    assert inverse.inverse().start_canonical == 0
+    assert pickle.loads(pickle.dumps(inverse)).start_canonical == 5
     assert (inverse.nominal_initial == jet.nominal_final).all()
     assert (inverse.nominal_final == jet.nominal_initial).all()
     assert (inverse.coefficients[:, 0] == jet.nominal_initial).all()

@@ -20,12 +20,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// `start` is.
 Matrix6 relative_flow(const std::vector<double>& start, double duration, const MetricUnits& units) {
   const DynamicalSystem system = kepler();
-  FlowProblem<double> problem;
-  problem.system = system;
-  problem.space = SeriesSpace::create(6, 1);
-  problem.variables = {0, 1, 2, 3, 4, 5};
-  problem.initial_state = start;
-  problem.duration = duration;
+  const FlowProblem<double> problem{system, SeriesSpace::create(6, 1), {0, 1, 2, 3, 4, 5},
+                                    start,  ClockTime::epoch(),        duration};
   GaussSettings settings;
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;

@@ -77,7 +77,6 @@ TEST(OwnScene, TellsMistakesWithFileKeyAndColumn) {
   refuse("- swing", "- swing/(q - 1.5)",
          {"system.hamiltonian: at the start: division by zero", "got \"/\""});
   refuse("- swing", "- swing + sqrt(p - 1)", {"no finite real value", "it is given -0.75"});
-  refuse("- swing", "- swing*cos(t)", {"system.hamiltonian: depends on the time"});
   refuse("duration_s = 6", "duration_orbits = 6", {"duration_orbits"});
 }
 
@@ -171,6 +170,29 @@ TEST(OwnScene, ThePendulumHasItsPeriod) {
   ASSERT_EQ(result.runs.at(0).failure, "");
   EXPECT_NEAR(result.runs.at(0).nominal_final[0], scene.nominal[0], 1e-10);
   EXPECT_NEAR(result.runs.at(0).nominal_final[1], 0, 1e-10);
+}
+
+// A particle that is pushed by cos(t): q'' = cos(t) from rest is at 1 - cos(t), and its jet is that
+// of a free one.
+TEST(OwnScene, TakesTheTime) {
+  const Scene scene = parse_scene(R"([system]
+model = "own"
+coordinates = ["q"]
+momenta = ["p"]
+hamiltonian = "p^2/2 - q*cos(t)"
+[nominal]
+coordinates = [0]
+momenta = [0]
+[jet]
+order = 2
+duration_canonical = 2
+)",
+                                  "file.toml");
+  const PropagationResult result = propagate(scene);
+  ASSERT_EQ(result.runs.at(0).failure, "");
+  EXPECT_NEAR(result.runs.at(0).nominal_final[0], 1 - std::cos(2.0), 1e-11);
+  EXPECT_NEAR(result.runs.at(0).nominal_final[1], std::sin(2.0), 1e-11);
+  EXPECT_NEAR(static_cast<double>(result.runs.at(0).jet[0][2]), 2, 1e-12);
 }
 
 // x' = v, v' = -x - 2c v has the flow of a damped oscillator, and its jet is in the states alone.

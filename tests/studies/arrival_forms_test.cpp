@@ -43,8 +43,8 @@ TEST(ArrivalForms, CurvilinearAtWhereTheChiefIsThen) {
   for (std::size_t k = 0; k < 2; ++k) {
     Scene scene = transfer_to({});
     scene.transfer->times = {scene.transfer->times[k]};
-    const std::vector<double> chief =
-        exact_flow(SharedSystem(make_system(scene)), scene.nominal, scene.transfer->times[0]);
+    const std::vector<double> chief = exact_flow(SharedSystem(make_system(scene)), scene.nominal,
+                                                 scene.start_time, scene.transfer->times[0]);
     const double unit = scene.units.length_km * 1000;
     const double r = std::hypot(chief[0], chief[1], chief[2]) * unit;
     const double angle = arc / r;
@@ -81,8 +81,8 @@ TEST(ArrivalForms, AnOwnOrbit) {
   Scene scene = transfer_to({});
   scene.transfer->times = {0.6 * paper_period};
   scene.transfer->frame = RelativeFrame::inertial;
-  const std::vector<double> chief =
-      exact_flow(SharedSystem(make_system(scene)), scene.nominal, scene.transfer->times[0]);
+  const std::vector<double> chief = exact_flow(SharedSystem(make_system(scene)), scene.nominal,
+                                               scene.start_time, scene.transfer->times[0]);
   const MetricUnits units{scene.units.length_km * 1000, scene.units.time_s};
   scene.transfer->end = {{200, -300, 50}, {0.1, 0.2, -0.3}};
   const TransferResult right = study_transfer(scene);

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "../poincare/independent_flight.hpp"
-#include "impulses/circle_transfers.hpp"
 #include "formation_scenes.hpp"
 #include "hamjet/error.hpp"
+#include "impulses/circle_transfers.hpp"
 #include "studies/exact_flow.hpp"
 
 namespace hamjet {
@@ -174,8 +174,8 @@ TEST(BoxControl, NeedsOneReturnOntoTheChiefsOwnOrbit) {
   Scene scene = oblate(boxed({0, 0, 0}, 0.5, 4));
   scene.bounded->box.reference = BoxReference::member;
   scene.deputy = DeputySettings{RelativeFrame::rtn_rotating, {{0, -100, 0}, {0, 0, 0}}};
-  const std::vector<double> follower =
-      exact_flow(SharedSystem(make_system(scene)), scene.nominal, -100 / boxed_radius_m);
+  const std::vector<double> follower = exact_flow(SharedSystem(make_system(scene)), scene.nominal,
+                                                  scene.start_time, -100 / boxed_radius_m);
   const BoxControl box = keep_in_box(scene, follower, 2 * std::numbers::pi);
   ASSERT_EQ(box.returns.size(), 1U);
   EXPECT_LE(box.farthest, 1.001);

@@ -152,7 +152,7 @@ double miss_m(const ChiefOrbit& chief, const ChiefOrbit& other, JetCoordinates c
     deputy[i] += deviation[i];
   }
   const ComputedProblem problem = make_problem(scene);
-  const auto flown = exact_flow(problem.system, deputy, scene.duration);
+  const auto flown = exact_flow(problem.system, deputy, scene.start_time, scene.duration);
   DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], coordinates);
   const auto flow = propagation.advance_to(scene.duration);
   const auto predicted = flow->predict(deviation, 2).deviation;
@@ -194,7 +194,7 @@ TEST(CoordinatesAtEnds, MayDiffer) {
   const SixNumbers<double> deviation = {2e-5, -3e-5, 1e-5, 1e-5, 2e-5, -2e-5};  // about 250 m
   std::vector<double> deputy = scene.nominal;
   for (std::size_t i = 0; i < 6; ++i) deputy[i] += deviation[i];
-  const auto flown = exact_flow(problem.system, deputy, scene.duration);
+  const auto flown = exact_flow(problem.system, deputy, scene.start_time, scene.duration);
   const Matrix<double> same = Matrix<double>::Identity(6, 6);
   for (const CoordinatesAtEnds& ends : {CoordinatesAtEnds{cartesian, nodal},
                                         {nodal, cartesian},

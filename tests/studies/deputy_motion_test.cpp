@@ -120,7 +120,7 @@ TEST(DeputyMotion, TheFloorCountsTheFlights) {
   scene.duration = 30 * std::numbers::pi;
   const DeputyMotion motion = study_deputy_motion(scene);
   const std::vector<double> once =
-      exact_flow(make_system(scene), motion.flown.deputy.front(), scene.duration);
+      exact_flow(make_system(scene), motion.flown.deputy.front(), scene.start_time, scene.duration);
   double square = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     square += std::pow(once[i] - motion.flown.deputy.back()[i], 2);

@@ -31,7 +31,8 @@ TEST(FlightChecks, FindTheLowestPointOfEveryFlight) {
   const double e = 0.5;
   const std::vector<double> falling = {1, 0, 0, 0, std::sqrt(1 - e), 0};
   const std::vector<SelfCheck> checks =
-      flight_checks(scene, {{"the chief", scene.nominal, 3}, {"the deputy", falling, -4}});
+      flight_checks(scene, {{"the chief", scene.nominal, scene.start_time, 3},
+                            {"the deputy", falling, scene.start_time, -4}});
   EXPECT_EQ(checks[0].name, SelfCheckName::energy);
   EXPECT_EQ(checks[0].state, SelfCheckState::passed);
   EXPECT_EQ(surface(checks).state, SelfCheckState::failed);
@@ -42,7 +43,8 @@ TEST(FlightChecks, FindTheLowestPointOfEveryFlight) {
             std::string::npos)
       << surface(checks).text;
   EXPECT_TRUE(has_failed(checks));
-  EXPECT_FALSE(has_failed(flight_checks(scene, {{"the chief", scene.nominal, 3}})));
+  EXPECT_FALSE(
+      has_failed(flight_checks(scene, {{"the chief", scene.nominal, scene.start_time, 3}})));
 }
 
 TEST(FlightChecks, AreTheScenes) {
@@ -61,7 +63,8 @@ TEST(FlightChecks, AreTheScenes) {
 TEST(FlightChecks, AFallIntoTheCentreFails) {
   Scene scene = chief(0, 1000);
   const std::vector<double> at_rest = {1, 0, 0, 0, 0, 0};
-  const std::vector<SelfCheck> checks = flight_checks(scene, {{"the deputy", at_rest, 3}});
+  const std::vector<SelfCheck> checks =
+      flight_checks(scene, {{"the deputy", at_rest, scene.start_time, 3}});
   EXPECT_EQ(surface(checks).state, SelfCheckState::failed);
   EXPECT_NE(surface(checks).text.find("the deputy cannot be followed"), std::string::npos);
 }

@@ -22,7 +22,7 @@ std::optional<RelativeDrift> drift_of(const Scene& scene, const Eigen::Vector3d&
                                       const Eigen::Vector3d& velocity_m_s = {0, 0, 0}) {
   const ChiefFrame frame(scene.nominal, metric_units(scene), RelativeFrame::rtn_rotating);
   return relative_drift(scene, scene.nominal, frame.deviation({position_m, velocity_m_s}),
-                        RelativeFrame::rtn_rotating);
+                        scene.start_time, RelativeFrame::rtn_rotating);
 }
 
 // Clohessy and Wiltshire: x and y' drift by -(6 n x + 3 y') T a revolution, so that rest at x above
@@ -69,9 +69,11 @@ TEST(RelativeDrift, RestFarBehindIsNoPlaceThatHolds) {
 TEST(RelativeDrift, OnTheSamePathThereIsNone) {
   const Scene scene = paper_chief(1);
   const double later = 2e-3;
-  std::vector<double> deviation = exact_flow(make_system(scene), scene.nominal, -later);
+  std::vector<double> deviation =
+      exact_flow(make_system(scene), scene.nominal, scene.start_time, -later);
   for (std::size_t i = 0; i < deviation.size(); ++i) deviation[i] -= scene.nominal[i];
-  const auto drift = relative_drift(scene, scene.nominal, deviation, RelativeFrame::inertial);
+  const auto drift =
+      relative_drift(scene, scene.nominal, deviation, scene.start_time, RelativeFrame::inertial);
   ASSERT_TRUE(drift.has_value());
   EXPECT_LT(std::abs(drift->per_revolution_m), 0.01);
   ASSERT_TRUE(drift->holding_change_m_s.has_value());

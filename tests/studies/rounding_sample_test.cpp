@@ -97,8 +97,8 @@ TEST(RoundingSample, HoldsWhatHalfUlpStartsDo) {
   const ComputedProblem problem = make_problem(scene);
   const RoundingFloor floor = floor_of(scene);
   const auto flow_from = [&](const std::vector<Extended>& start) {
-    FlowProblem<Extended> flow{problem.system, problem.space, problem.variables, start,
-                               Extended(scene.duration)};
+    FlowProblem<Extended> flow{problem.system, problem.space,      problem.variables,
+                               start,          problem.start_time, Extended(scene.duration)};
     GaussSettings gauss;
     gauss.stages = 16;
     gauss.tolerance = 1e-22;

@@ -40,7 +40,7 @@ SharedSystem kepler_system() { return make_system(kepler_chief(0, 7000, 806.8, 1
 
 // Half a revolution later no velocity out of the plane moves a body out of it.
 TEST(SolverFailures, APlaceThatNoVelocityCommands) {
-  const TwoPointFlight flight = fly_between(kepler_system(), unit_circle,
+  const TwoPointFlight flight = fly_between(kepler_system(), unit_circle, ClockTime::epoch(),
                                             Eigen::Vector3d(-1, 0, 0.1), std::numbers::pi, 1e-12);
   EXPECT_FALSE(flight.is_found());
   EXPECT_FALSE(flight.failure.empty());
@@ -48,8 +48,8 @@ TEST(SolverFailures, APlaceThatNoVelocityCommands) {
 
 // No flight is free of rounding.
 TEST(SolverFailures, AMissThatNoFlightMeets) {
-  const TwoPointFlight flight =
-      fly_between(kepler_system(), unit_circle, Eigen::Vector3d(0.3, 0.8, 0.1), 1, -1);
+  const TwoPointFlight flight = fly_between(kepler_system(), unit_circle, ClockTime::epoch(),
+                                            Eigen::Vector3d(0.3, 0.8, 0.1), 1, -1);
   EXPECT_FALSE(flight.is_found());
   EXPECT_NE(flight.failure.find("canonical lengths off its end"), std::string::npos)
       << flight.failure;
@@ -59,7 +59,7 @@ TEST(SolverFailures, AMissThatNoFlightMeets) {
 TEST(SolverFailures, AFlightThroughTheCentre) {
   const std::vector<double> fall = {1, 0, 0, 0, 0, 0};
   const TwoPointFlight flight =
-      fly_between(kepler_system(), fall, Eigen::Vector3d(0, 1, 0), 3, 1e-12);
+      fly_between(kepler_system(), fall, ClockTime::epoch(), Eigen::Vector3d(0, 1, 0), 3, 1e-12);
   EXPECT_FALSE(flight.is_found());
   EXPECT_FALSE(flight.failure.empty());
 }

@@ -349,8 +349,8 @@ TEST(Transfer, AnEarlierJetGivesTheSameAnswer) {
   scene.transfer->kind = "F1";
   const TransferResult computed = study_transfer(scene);
   const DynamicalSystem system = make_system(scene);
-  const FlowProblem<double> flow{
-      system, SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5}, scene.nominal, 4.0};
+  const FlowProblem<double> flow{system,        SeriesSpace::create(6, 3), {0, 1, 2, 3, 4, 5},
+                                 scene.nominal, ClockTime::epoch(),        4.0};
   GaussSettings settings;
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;

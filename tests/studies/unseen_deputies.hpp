@@ -42,7 +42,8 @@ class UnseenDeputies {
       const std::vector<double> start = frame_.deviation(state);
       std::vector<double> deputy = scene_.nominal;
       for (std::size_t i = 0; i < start.size(); ++i) deputy[i] += start[i];
-      const std::vector<double> flown = exact_flow(problem_.system, deputy, time);
+      const std::vector<double> flown =
+          exact_flow(problem_.system, deputy, problem_.start_time, time);
       const std::array<double, 3> predicted = predict(start, entry.order);
       const double miss =
           std::hypot(predicted[0] - flown[0], predicted[1] - flown[1], predicted[2] - flown[2]);

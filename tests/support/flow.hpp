@@ -24,7 +24,8 @@ struct Flow {
   std::vector<Real> start;
   Real duration = 0;
   int order = 1;
-  std::vector<std::size_t> variables;  ///< if empty, all variables
+  std::vector<std::size_t> variables = {};  ///< if empty, all variables
+  ClockTime start_time = ClockTime::epoch();
 };
 
 template <class Real = double>
@@ -38,16 +39,13 @@ Flow<Real> flow_of(const ReferenceOrbit& orbit, int order) {
 
 template <class Real>
 FlowProblem<Real> problem_of(const Flow<Real>& flow) {
-  FlowProblem<Real> problem;
-  problem.system = flow.system;
-  problem.variables = flow.variables;
+  FlowProblem<Real> problem{flow.system,     {},           flow.variables, flow.start,
+                            flow.start_time, flow.duration};
   if (flow.variables.empty()) {
     problem.variables.resize(flow.system.dimension());
     std::iota(problem.variables.begin(), problem.variables.end(), std::size_t{0});
   }
   problem.space = SeriesSpace::create(problem.variables.size(), flow.order);
-  problem.initial_state = flow.start;
-  problem.duration = flow.duration;
   return problem;
 }
 
@@ -76,7 +74,8 @@ FlowJet<Real> run_gauss(const Flow<Real>& flow, const GaussSettings& settings = 
 template <class Real>
 FlowJet<Extended> jet_in(const Flow<Extended>& flow, const GaussSettings& settings,
                          FlowSymmetry symmetry = FlowSymmetry::none) {
-  Flow<Real> converted{flow.system, {}, convert<Real>(flow.duration), flow.order, flow.variables};
+  Flow<Real> converted{flow.system,    {}, convert<Real>(flow.duration), flow.order, flow.variables,
+                       flow.start_time};
   for (const Extended& x : flow.start) converted.start.push_back(convert<Real>(x));
   FlowProblem<Real> problem = problem_of(converted);
   problem.symmetry = symmetry;

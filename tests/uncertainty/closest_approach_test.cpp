@@ -33,8 +33,7 @@ std::vector<double> flown(const EncounterProblem& problem, std::size_t craft,
 /// Two orbits in the Earth's J2 that pass each other by 2e-4 of their radius at some 0.3 of the
 /// orbital speed, after two revolutions.
 EncounterProblem passing_pair(int order, double deviation) {
-  EncounterProblem problem;
-  problem.system = zonal_gravity({1, 0.9, {{2, 1.0826e-3}}});
+  EncounterProblem problem{zonal_gravity({1, 0.9, {{2, 1.0826e-3}}}), {}, ClockTime::epoch()};
   problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0.1};
   problem.spacecraft[1].state = {1.0002, 0, 0, 0, 0.99, 0.4};
   std::mt19937_64 generator(21);
@@ -135,8 +134,7 @@ TEST(ClosestApproach, FindsEveryMinimumOfEccentricPairs) {
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
     SCOPED_TRACE(pair);
     std::array<Ellipse, 2> orbits;
-    EncounterProblem problem;
-    problem.system = kepler();
+    EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
     problem.to = 20;
     problem.radius = 1e-6;
     problem.order = 1;
@@ -208,8 +206,7 @@ TEST(ShortEncounter, GivesThePublishedIntegrals) {
 TEST(ShortEncounter, FindsNarrowDensities) {
   constexpr double radius = 1e-3;
   for (const double part : {3.0, 1.0, 0.2, 1e-3, 1e-6}) {
-    EncounterProblem problem;
-    problem.system = kepler();
+    EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
     problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
     problem.spacecraft[1].state = {1, 0, 0, 0, 0.6, 0.8};
     problem.spacecraft[1].factor.topLeftCorner<3, 3>() =

@@ -73,8 +73,7 @@ class LateDeputy {
   /// Deviations of size s about a mean; the window is the end of the turn alone, in which nothing
   /// moves by more than its length.
   static EncounterProblem problem(double mean, double s, double radius) {
-    EncounterProblem result;
-    result.system = kepler();
+    EncounterProblem result{kepler(), {}, ClockTime::epoch()};
     result.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
     result.spacecraft[1].state = {1, mean, 0, 0, 1, 0};
     result.spacecraft[1].factor(1, 1) = s;

@@ -103,8 +103,7 @@ TEST(CollisionProbability, OfAnInstantIsThatOfANormalVectorInABall) {
   // In a window too short for any motion, of independent deviations of one size s: the squared
   // distance over 2 s^2 is of the non-central chi-squared distribution of three degrees of freedom.
   for (const double offset : {0.5, 3.0, 8.0}) {
-    EncounterProblem problem;
-    problem.system = kepler();
+    EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
     const double s = 1e-6;
     for (UncertainSpacecraft& craft : problem.spacecraft) {
       craft.state = {1, 0, 0, 0, 1, 0};
@@ -130,8 +129,7 @@ TEST(CollisionProbability, OfAnInstantIsThatOfANormalVectorInABall) {
 /// within the passage is 1e-6 of the deviations.
 void expect_the_probability_of_the_plane(const std::vector<double>& misses) {
   for (const double miss : misses) {
-    EncounterProblem problem;
-    problem.system = kepler();
+    EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
     const double s = 1e-6, duration = 1;
     // Both arrive at (1, 0, 0), the second with an offset along x; the starts are a radian before.
     const double c = std::cos(duration), d = std::sin(duration);
@@ -170,8 +168,7 @@ TEST(CollisionProbabilityAtLength, OfFastEncountersIsThatOfThePlaneDownToRareOne
 /// Two spacecraft on one orbit with exact velocities, independent deviations in position of one
 /// size, which is the radius too, and so many of them apart along the orbit.
 EncounterProblem exact_velocities(double apart, double duration) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   const double s = 1e-6;
   for (UncertainSpacecraft& craft : problem.spacecraft) {
     craft.state = {1, 0, 0, 0, 1, 0.1};
@@ -226,8 +223,7 @@ TEST(CollisionProbabilityAtLength, OfBeginningInsideIsWhatEntriesLeaveOut) {
   // independent components is in a ball. The orbits bend so much that the sampled sphere is wider
   // than the radius by a hundredth, and paths that begin between the two spheres make up half of a
   // hundredth of that probability.
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   const double s = 1.5e-3;
   for (UncertainSpacecraft& craft : problem.spacecraft) {
     craft.state = {1, 0, 0, 0, 1, 0};

@@ -16,8 +16,7 @@ namespace {
 EncounterProblem crossing(double after, double miss) {
   constexpr double s = 1e-6;
   const double c = std::cos(after), d = std::sin(after);
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.spacecraft[0].state = {c, -d, 0, d, c, 0};
   problem.spacecraft[1].state = {c * (1 + miss), 0, -d * (1 + miss), d, 0, c};
   for (UncertainSpacecraft& craft : problem.spacecraft) {

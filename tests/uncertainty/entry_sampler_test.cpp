@@ -16,8 +16,7 @@ namespace {
 // entry there is.
 TEST(EntrySampler, KnowsTheDensityOfEveryPathThatEnters) {
   constexpr double s = 7e-7, after = 1e-5;
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   const double c = std::cos(after), d = std::sin(after), miss = 6e-7;
   problem.spacecraft[0].state = {c, -d, 0, d, c, 0};
   problem.spacecraft[1].state = {c * (1 + miss), 0, -d * (1 + miss), d, 0, c};

@@ -54,8 +54,7 @@ TEST(KeepOutMargin, IsNoneWhereNothingLeadsThereAndZeroWithin) {
 // at 1e-13, the trust-region problem at 20001 times and at as many about the least, three times; by
 // the linear theory, of which the second order is (0.2 of 1e-6)^2 in distances of 1e-6.
 TEST(KeepOutMargin, IsTheLeastOfManyMinimaThatLooksPassBy) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.to = 31.744323;
   problem.order = 2;
   problem.radius = 1e-6;
@@ -92,7 +91,9 @@ double least_flown_ratio(const EncounterProblem& problem, const Eigen::Vector3d&
   constexpr int steps = 2000;
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= steps; ++k) {
-    if (k > 0) flow.advance(states, std::vector<double>(3, problem.to / steps));
+    if (k > 0)
+      flow.advance(states, ClockTime((k - 1) * problem.to / steps),
+                   std::vector<double>(3, problem.to / steps));
     const ChiefFrame frame(std::span<const double>(states).last(6), {},
                            RelativeFrame::rtn_inertial);
     const Eigen::Vector3d relative(states[6] - states[0], states[7] - states[1],

@@ -144,8 +144,7 @@ TEST(LeastSeparations, HoldWhatInterpolationLeaves) {
 // / (12 pi) = 0.0265 for any y. About y = 0.02 a linear flow takes y + d to 0.0162 + 0.623 d: one
 // case in ten of a deviation of 0.02 is beyond 0.0162 + 1.28 * 0.623 * 0.02 = 0.0322.
 TEST(LeastSeparations, HaveIntervalsThatHoldWhatPolynomialsLeaveOut) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
   problem.spacecraft[1].state = {1, 0.02, 0, 0, 1, 0};
   problem.spacecraft[1].factor(1, 1) = 0.02;
@@ -177,8 +176,7 @@ Eigen::Vector2d on_ellipse(double e, double time) {
 TEST(FlownSeparations, OfTwoOnOneEllipseAreThoseAtApogee) {
   constexpr double pi = std::numbers::pi, delay = 1e-3;
   for (const double e : {0.1, 0.7, 0.9}) {
-    EncounterProblem problem;
-    problem.system = kepler();
+    EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
     const double perigee = 1 - e, speed = std::sqrt((1 + e) / (1 - e));
     problem.spacecraft[0].state = {perigee, 0, 0, 0, speed, 0};
     const Eigen::Vector2d start = on_ellipse(e, -delay);
@@ -198,8 +196,7 @@ TEST(FlownSeparations, OfTwoOnOneEllipseAreThoseAtApogee) {
 }
 
 TEST(FlownSeparations, OfAFlightIntoTheCentreAreRefused) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
   problem.spacecraft[1].state = {0.1, 0, 0, 0, 0, 0};
   problem.to = 1;

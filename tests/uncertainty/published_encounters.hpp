@@ -18,10 +18,10 @@ namespace hamjet::test {
 struct PublishedEncounter {
   int number = 0;
   double length_m = 1, time_s = 1;
-  double approach_s = 0;     ///< from the epoch to the closest approach of the means
-  EncounterProblem problem;  ///< of order 3
-  double probability = 0;    ///< from 1e8 samples
-  double lower = 0;          ///< its 95 % interval
+  double approach_s = 0;  ///< from the epoch to the closest approach of the means
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};  ///< of order 3
+  double probability = 0;                                      ///< from 1e8 samples
+  double lower = 0;                                            ///< its 95 % interval
   double upper = 0;
   std::optional<double> short_encounter;  ///< by the integral in the plane of encounter
 };
@@ -35,7 +35,6 @@ inline PublishedEncounter published_encounter(const nlohmann::json& data) {
   e.time_s = std::sqrt(std::pow(e.length_m, 3) / mu);
   e.approach_s = data["tca_s_after_epoch"];
   const double window = data["window_s_about_tca"];
-  e.problem.system = kepler();
   e.problem.from = (e.approach_s - window) / e.time_s;
   e.problem.to = (e.approach_s + window) / e.time_s;
   e.problem.radius = data["hard_body_radius_m"].get<double>() / e.length_m;

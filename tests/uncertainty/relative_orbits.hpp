@@ -22,8 +22,7 @@ struct RelativeOrbit {
 
   /// Of nothing that is uncertain, in a window from the epoch.
   EncounterProblem problem(double to, int order) const {
-    EncounterProblem result;
-    result.system = kepler();
+    EncounterProblem result{kepler(), {}, ClockTime::epoch()};
     result.from = 0;
     result.to = to;
     result.order = order;

@@ -25,8 +25,7 @@ TEST(SolverFailures, APathOfNoNumbersIsNotOutside) {
 // A density that is a billion times as long as it is wide is a line, which a quadrature along
 // directions does not see.
 TEST(SolverFailures, ADensityThatIsTooFlatIsNotIntegrated) {
-  EncounterProblem problem;
-  problem.system = kepler();
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};
   problem.spacecraft[0].state = {1, 0, 0, 0, 1, 0};
   problem.spacecraft[1].state = {1, 0, 0, 0, 0.6, 0.8};
   problem.to = 1;

@@ -44,8 +44,12 @@ double worst_error(const FlowJet<double>& jet, const FlowJet<Extended>& referenc
 }
 
 FlowJet<Extended> reference_jet(const Case& c) {
-  const FlowProblem<Extended> problem{
-      c.system, c.space, c.variables, {c.nominal.begin(), c.nominal.end()}, c.duration};
+  const FlowProblem<Extended> problem{c.system,
+                                      c.space,
+                                      c.variables,
+                                      {c.nominal.begin(), c.nominal.end()},
+                                      hamjet::ClockTime::epoch(),
+                                      c.duration};
   GaussSettings settings;
   settings.stages = 16;
   settings.tolerance = 1e-20;

@@ -21,7 +21,9 @@ struct Case {
   std::vector<double> nominal;
   double duration = paper_duration;
 
-  FlowProblem<double> problem() const { return {system, space, variables, nominal, duration}; }
+  FlowProblem<double> problem() const {
+    return {system, space, variables, nominal, ClockTime::epoch(), duration};
+  }
 };
 
 /// The paper's orbit with a field, an order, all six variables.

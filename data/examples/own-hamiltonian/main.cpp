@@ -42,6 +42,7 @@ hamjet::FlowJet<double> fly(const hamjet::DynamicalSystem& system, std::vector<d
                                             hamjet::SeriesSpace::create(6, order),
                                             {0, 1, 2, 3, 4, 5},
                                             std::move(start),
+                                            hamjet::ClockTime::epoch(),
                                             duration};
   hamjet::IntegrationStatistics statistics;
   return hamjet::integrate_gauss<double>(problem, {.stages = 8, .tolerance = 1e-14}, statistics);

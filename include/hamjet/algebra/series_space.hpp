@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -64,6 +66,12 @@ class SeriesSpace {
     return schedules_[static_cast<std::size_t>(degree)];
   }
 
+  /// The products of the slices a_i b_(degree - i) with i >= lowest_a and degree - i >= lowest_b,
+  /// in a directed schedule; or, if both are slices of one series and `is_square`, in one like that
+  /// of `products`. The schedule is made at the first call and kept.
+  const ProductSchedule& products_above(int degree, int lowest_a, int lowest_b,
+                                        bool is_square) const;
+
   /// Multiply-adds of one product of two series, with constant terms.
   std::size_t product_cost() const;
 
@@ -101,6 +109,8 @@ class SeriesSpace {
   std::vector<ProductSchedule> schedules_;
   mutable std::once_flag is_raised_;
   mutable std::vector<std::uint32_t> raised_;
+  mutable std::mutex has_products_above_;
+  mutable std::map<std::array<int, 4>, ProductSchedule> products_above_;
   mutable std::once_flag has_next_order_;
   mutable std::shared_ptr<const SeriesSpace> next_order_;
 };

@@ -15,19 +15,36 @@
 
 namespace hamjet {
 
-/// The second-order structure q' = M^-1 p, p' = F(q) with a constant mass matrix M.
+/// The second-order structure q' = M^-1 p, p' = F(q, t) with a constant mass matrix M.
 struct SecondOrderForm {
   std::vector<Extended> inverse_mass;  ///< n x n, by rows
-  OperationList force;                 ///< n inputs q, n outputs F(q)
+  OperationList force;  ///< n inputs q, and the time where the system has it; n outputs F
+};
+
+/// A quantity that the flow keeps.
+enum class ConservedQuantity {
+  none,
+  energy,           ///< H, of a system without time
+  jacobi_integral,  ///< H - omega L, see UniformRotation
+};
+
+/// The rotation, at a constant rate omega, in which all dependence of a Hamiltonian on the time
+/// consists: H(R(omega s) z, t + s) = H(z, t), where R turns each plane of positions, and that of
+/// their momenta, by the same angle. The flow then keeps Jacobi's integral H - omega L with the
+/// angular momentum L = sum over the planes of q_i p_j - q_j p_i.
+struct UniformRotation {
+  std::vector<std::array<std::size_t, 2>> planes;  ///< planes (i, j) of positions
+  Extended rate = 0;                               ///< omega
 };
 
 /// A Hamiltonian system with n degrees of freedom, z = (q_1..q_n, p_1..p_n) and
-/// z' = J grad H(z), J = [[0, I], [-I, 0]].
+/// z' = J grad H(z, t), J = [[0, I], [-I, 0]]. A system whose Hamiltonian does not depend on the
+/// time is autonomous; the lists of all others have the time as their last input.
 struct DynamicalSystem {
   std::string name;
   std::size_t degrees_of_freedom = 0;
-  OperationList hamiltonian;                    ///< 2n inputs, 1 output
-  OperationList vector_field;                   ///< 2n inputs, 2n outputs
+  OperationList hamiltonian;                    ///< 2n inputs (and the time), 1 output
+  OperationList vector_field;                   ///< 2n inputs (and the time), 2n outputs
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
   /// The largest number of waves that the field has along a circle about the origin of the
   /// positions, for example the highest degree of a gravity field; 0 where no such wave is known.
@@ -39,8 +56,19 @@ struct DynamicalSystem {
   /// If the list is empty, no such rotation is known. Integrators leave the rotation out and put it
   /// back exactly; with_rotation declares one.
   std::vector<std::array<std::size_t, 2>> rotated_planes;
+  /// The rotation of which the dependence on the time consists, where that is known;
+  /// with_uniform_rotation declares it.
+  std::optional<UniformRotation> uniform_rotation;
 
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
+  /// Whether the system does not depend on the time. The flow then keeps the energy, and commutes
+  /// with shifts in time.
+  bool is_autonomous() const noexcept { return !hamiltonian.has_time(); }
+  ConservedQuantity conserved_quantity() const noexcept {
+    if (is_autonomous()) return ConservedQuantity::energy;
+    return uniform_rotation ? ConservedQuantity::jacobi_integral : ConservedQuantity::none;
+  }
+
   /// What an integrator evaluates: the force alone where there is a second-order form.
   const OperationList& evaluated_list() const noexcept {
     return second_order ? second_order->force : vector_field;
@@ -73,8 +101,17 @@ concept HamiltonianFunction = requires(const Function& h, std::span<const Expres
   { h(x, x) } -> std::convertible_to<Expression>;
 };
 
+/// A Hamiltonian that depends on the time: `h(q, p, t)`.
+template <class Function>
+concept TimeDependentHamiltonian = requires(const Function& h, std::span<const Expression> x,
+                                            const Expression& t) {
+  { h(x, x, t) } -> std::convertible_to<Expression>;
+};
+
 /// Builds a system from the list of its Hamiltonian; the vector field is derived from it unless it
-/// is given. Throws Error(usage) if the numbers of inputs or outputs do not fit.
+/// is given. Where neither depends on the time, an input for it is left out. `waves_on_a_circle` is
+/// that of the fields in the lists. Throws Error(usage) if the numbers of inputs or outputs do not
+/// fit.
 DynamicalSystem make_system(std::string name, OperationList hamiltonian,
                             std::optional<OperationList> vector_field = std::nullopt);
 
@@ -85,6 +122,20 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
   return make_system(std::move(name), record(2 * n, [&](std::span<const Expression> z) {
                        return std::vector<Expression>{h(z.first(n), z.last(n))};
                      }));
+}
+
+/// Records a Hamiltonian that depends on the time, and derives the vector field.
+template <TimeDependentHamiltonian Function>
+requires(!HamiltonianFunction<Function>) DynamicalSystem
+    make_system(std::string name, std::size_t degrees_of_freedom, const Function& h) {
+  const std::size_t n = degrees_of_freedom;
+  return make_system(std::move(name),
+                     record(
+                         2 * n + 1,
+                         [&](std::span<const Expression> z) {
+                           return std::vector<Expression>{h(z.first(n), z.subspan(n, n), z.back())};
+                         },
+                         true));
 }
 
 /// Records the Hamiltonian and a hand-written force F(q) = -dV/dq for H = p^2/2 + V(q).
@@ -113,6 +164,16 @@ DynamicalSystem make_system(std::string name, std::size_t degrees_of_freedom, co
 /// under the rotation by more than the rounding of extended precision.
 DynamicalSystem with_rotation(DynamicalSystem system,
                               std::vector<std::array<std::size_t, 2>> planes_of_positions);
+
+/// Declares that the dependence of a system on the time consists in a rotation, see
+/// UniformRotation, and returns the system with this declaration. Throws Error(usage) for indices
+/// that are out of range or repeated, and if the vector field at one of a few random points and
+/// times changes under the rotation by more than the rounding of extended precision.
+DynamicalSystem with_uniform_rotation(DynamicalSystem system, UniformRotation rotation);
+
+/// The quantity that the flow of a system keeps, as a list with one output and the inputs of the
+/// Hamiltonian; no value where none is known.
+std::optional<OperationList> conserved_list(const DynamicalSystem& system);
 
 /// The degrees of freedom that a scene needs, ascending: those of the variables to expand in, those
 /// whose nominal is not exactly at rest in the origin, and all that are driven by these.

@@ -53,6 +53,7 @@ std::vector<std::pair<std::string, std::string>> likely_mistakes(const SystemTex
                                                                  const DynamicalSystem& system);
 
 /// A system's Hamiltonian as text in these variables (q, p), from which the same list is made.
+/// Throws Error(usage) if it has fields or functions of the time.
 SystemText system_text(const DynamicalSystem& system, std::vector<std::string> coordinates,
                        std::vector<std::string> momenta);
 

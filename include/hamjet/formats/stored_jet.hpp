@@ -47,6 +47,10 @@ struct StoredJet {
   Precision precision = Precision::double_precision;  ///< precision of the printed coefficients
   CanonicalUnits units;
   double duration = 0;
+  /// The system's clock at the start: the epoch for the jet of a run, another time for one that was
+  /// made of several or turned round.
+  ClockTime start_time = ClockTime::epoch();
+  bool is_autonomous = true;            ///< whether the system's forces are the same at all times
   std::vector<double> nominal_initial;  ///< all 2n components of the model
   std::vector<double> nominal_final;
   /// Components that were computed, ascending; all others vanish, whatever the deviations of the

@@ -12,6 +12,7 @@
 #include "hamjet/algebra/truncated_power_series.hpp"
 #include "hamjet/detail/dynamics/series_work.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -30,7 +31,10 @@ struct FlowProblem {
   SpacePointer space;                  ///< one variable for each variable of the expansion
   std::vector<std::size_t> variables;  ///< index in z = (q, p) of each variable of the space
   std::vector<Real> initial_state;     ///< 2n numbers
-  Real duration = 0;                   ///< negative for backwards; zero gives the start exactly
+  /// The time of the system's clock at which `initial_state` stands. It has no default: a problem
+  /// that leaves it out does not compile. A flight backwards starts at the later time.
+  ClockTime start_time;
+  Real duration = 0;  ///< negative for backwards; zero gives the start exactly
   /// The jet that an earlier integration reached and from which this one continues; its constant
   /// terms are `initial_state`. Without a value the integration starts from the identity.
   std::optional<FlowJet<Real>> initial_jet = {};

@@ -49,7 +49,7 @@ class JetTrajectory {
  private:
   void keep(const FlowJet<Real>& jet);
   /// One step of the method, starting from a jet.
-  FlowJet<Real> step(FlowJet<Real> jet, const Real& length) const;
+  FlowJet<Real> step(FlowJet<Real> jet, const Real& from, const Real& length) const;
 
   FlowProblem<Real> problem_;
   GaussSettings settings_;

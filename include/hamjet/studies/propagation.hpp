@@ -144,7 +144,8 @@ struct ComputedProblem {
   std::vector<std::size_t> variables;   ///< index among the components of each variable
   SpacePointer space;
   SharedSystem system;
-  std::vector<double> nominal;  ///< nominal of these components
+  std::vector<double> nominal;                ///< nominal of these components
+  ClockTime start_time = ClockTime::epoch();  ///< the system's clock at the nominal
   bool is_full_jet =
       false;  ///< whether the jet is expanded in all components, and thus a map of phase space
   FlowSymmetry symmetry =

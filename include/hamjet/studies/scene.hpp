@@ -15,6 +15,7 @@
 #include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 #include "hamjet/detail/studies/uncertainty_settings.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -121,7 +122,10 @@ struct Scene {
   std::optional<CanonicalUnits> told_units = {};
   double canonical_radius = 0;  ///< radius_km in canonical units
   std::vector<double> nominal;  ///< initial state (q, p), canonical
-  double duration = 0;          ///< in canonical units; negative is backwards
+  /// The system's clock at the nominal. A scene that is read starts at the epoch; one that flies
+  /// on, or back, from a state that another one reached starts at that state's time.
+  ClockTime start_time = ClockTime::epoch();
+  double duration = 0;  ///< in canonical units; negative is backwards
   int order = 1;
   /// `jet.arcs`: the number of arcs into which the flow is split; absent ("auto") if it is chosen
   /// from the operation counts.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
@@ -25,11 +26,12 @@ struct UncertainSpacecraft {
 struct EncounterProblem {
   SharedSystem system;
   std::array<UncertainSpacecraft, 2> spacecraft;
-  double from = 0;    ///< start of the window, after the epoch; before the epoch where negative
-  double to = 0;      ///< end of the window; not before `from`
-  double radius = 0;  ///< the sum of the radii of both bodies: a smaller distance is a collision
-  int order = 3;      ///< order of the polynomials in the deviations at the epoch
-  GaussSettings settings;
+  ClockTime start_time;  ///< the epoch of both states, on the system's clock
+  double from = 0;       ///< start of the window, after the epoch; before the epoch where negative
+  double to = 0;         ///< end of the window; not before `from`
+  double radius = 0;     ///< the sum of the radii of both bodies: a smaller distance is a collision
+  int order = 3;         ///< order of the polynomials in the deviations at the epoch
+  GaussSettings settings = {};
 };
 
 /// Throws Error(usage) unless the sizes fit, the window does not end before it begins, and the

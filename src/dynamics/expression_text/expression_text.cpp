@@ -405,8 +405,10 @@ bool is_expression_name(std::string_view name) {
 
 OperationList record_function(const FunctionText& function) {
   ParsedFunction parsed(function);
-  return record(function.variables.size() + (parsed.uses_time() ? 1 : 0),
-                [&](std::span<const Expression> inputs) { return parsed.outputs(inputs); });
+  const bool has_time = parsed.uses_time();
+  return record(
+      function.variables.size() + (has_time ? 1 : 0),
+      [&](std::span<const Expression> inputs) { return parsed.outputs(inputs); }, has_time);
 }
 
 std::vector<Extended> evaluate_function(const FunctionText& function,

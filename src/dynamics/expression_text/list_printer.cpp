@@ -69,7 +69,7 @@ class ListPrinter {
   FunctionText print(const std::vector<std::string>& outputs) {
     FunctionText function;
     function.variables = variables_;
-    if (list_.inputs() == variables_.size() + 1) variables_.emplace_back(time_variable);
+    if (list_.has_time()) variables_.emplace_back(time_variable);
     for (std::size_t i = 0; i < list_.operations().size(); ++i) {
       values_.push_back(printed(i));
       const bool is_input = i < list_.inputs();
@@ -133,6 +133,10 @@ class ListPrinter {
         return {call("cosh", o.u)};
       case OperationCode::angle:
         return {fmt::format("unit_angle({}, {})", values_[o.u].text, values_[o.v].text)};
+      case OperationCode::time_function:
+      case OperationCode::field:
+      case OperationCode::deviation_product:
+        break;  // print_list refuses them
     }
     return {};
   }
@@ -178,7 +182,7 @@ class ListPrinter {
 }  // namespace
 
 bool is_same_list(const OperationList& a, const OperationList& b) {
-  return a.inputs() == b.inputs() &&
+  return a.inputs() == b.inputs() && a.has_time() == b.has_time() &&
          std::equal(a.operations().begin(), a.operations().end(), b.operations().begin(),
                     b.operations().end(), is_same) &&
          std::equal(a.outputs().begin(), a.outputs().end(), b.outputs().begin(), b.outputs().end());
@@ -186,13 +190,17 @@ bool is_same_list(const OperationList& a, const OperationList& b) {
 
 FunctionText print_list(const OperationList& list, const std::vector<std::string>& variables,
                         const std::vector<std::string>& outputs) {
-  const bool has_time = list.inputs() == variables.size() + 1;
-  if ((list.inputs() != variables.size() && !has_time) || list.outputs().size() != outputs.size()) {
+  for (const Operation& o : list.operations()) {
+    if (o.code < OperationCode::time_function) continue;
+    throw Error(ErrorKind::usage,
+                "text of a list: it has fields or functions of the time, which have no text");
+  }
+  if (list.variables() != variables.size() || list.outputs().size() != outputs.size()) {
     throw Error(
         ErrorKind::usage,
         fmt::format("text of a list: names of {} variables and {} outputs, must be {} and "
                     "{}",
-                    variables.size(), outputs.size(), list.inputs(), list.outputs().size()));
+                    variables.size(), outputs.size(), list.variables(), list.outputs().size()));
   }
   FunctionText brief = ListPrinter(list, variables, false).print(outputs);
   if (is_same_list(record_function(brief), list)) return brief;

@@ -82,19 +82,19 @@ FunctionText function_of(const SystemText& text) {
 OperationList hamiltonian_of(const SystemText& text) {
   const FunctionText function = function_of(text);
   OperationList list = record_function(function);
-  if (list.inputs() > function.variables.size()) {
-    fail_part(function.outputs[0].name,
-              "depends on the time, got t, must be autonomous: forces that depend on the time are "
-              "not available as text");
-  }
   if (text.is_hamiltonian()) return list;
   const std::size_t n = text.states.size();
-  return record(2 * n, [&](std::span<const Expression> z) {
-    const std::vector<Expression> field = recorded_outputs(list, z.first(n));
-    Expression sum(0);
-    for (std::size_t i = 0; i < n; ++i) sum += z[n + i] * field[i];
-    return std::vector<Expression>{sum};
-  });
+  return record(
+      2 * n + (list.has_time() ? 1 : 0),
+      [&](std::span<const Expression> z) {
+        std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+        if (list.has_time()) inputs.push_back(z.back());
+        const std::vector<Expression> field = recorded_outputs(list, inputs);
+        Expression sum(0);
+        for (std::size_t i = 0; i < n; ++i) sum += z[n + i] * field[i];
+        return std::vector<Expression>{sum};
+      },
+      list.has_time());
 }
 
 /// The system with the rotation of the first plane of coordinates under which it does not change,
@@ -130,17 +130,18 @@ DynamicalSystem make_system(std::string name, const SystemText& text) {
 }
 
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
-                       std::span<const double> state) {
+                       std::span<const double> state, double time) {
   const FunctionText function = function_of(text);
-  const std::vector<Extended> point(
+  std::vector<Extended> point(
       state.begin(), state.begin() + static_cast<std::ptrdiff_t>(function.variables.size()));
+  if (record_function(function).has_time()) point.emplace_back(time);
   try {
     evaluate_function(function, point);
   } catch (const ExpressionTextError& error) {
     fail_part(error.part(), "at the start: " + error.problem());
   }
   DifferentiableFunction<double> field(system.vector_field);
-  field.evaluate(state);
+  field.evaluate(state, time);
   const std::vector<std::string> names = text.variables();
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::isfinite(field.value(i))) continue;

@@ -18,7 +18,9 @@
 //   /               attributes: format, format_version, hamjet_version, description, scene, title,
 //                   model, precision, frame, units, length_unit_km, time_unit_s, order,
 //                   duration_canonical, variables, components, state, nominal_initial, runs; of a
-//                   scene with [ephemeris] also reference_frame, center_name, epoch, time_system
+//                   scene with [ephemeris] also reference_frame, center_name, epoch, time_system;
+//                   of a jet that does not start at the epoch, start_canonical; of forces that
+//                   depend on the time, autonomous: no
 //   /<label>        one group a run, with its label; attributes: method, nominal_final,
 //                   content_crc32; of a run that failed the attribute error, and nothing else
 //     coefficients  (component, term) float64

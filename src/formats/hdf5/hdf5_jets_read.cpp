@@ -116,6 +116,10 @@ StoredJet read_scene(const Reader& root) {
       index_of(root, "precision", root.text("precision"), hdf5::precision_names));
   stored.units = {positive(root, "length_unit_km"), positive(root, "time_unit_s")};
   stored.duration = root.number("duration_canonical");
+  if (root.has_attribute("start_canonical")) {
+    stored.start_time = ClockTime(root.number("start_canonical"));
+  }
+  stored.is_autonomous = !root.has_attribute("autonomous");
   stored.nominal_initial = root.numbers("nominal_initial");
   const std::size_t dimension = stored.nominal_initial.size();
   const auto possible = possible_degrees_of_freedom(stored.model);

@@ -86,6 +86,10 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   file.attribute(root, "time_unit_s", jet.units.time_s);
   file.attribute(root, "order", order);
   file.attribute(root, "duration_canonical", jet.duration);
+  if (jet.start_time != ClockTime::epoch()) {
+    file.attribute(root, "start_canonical", jet.start_time.in<double>());
+  }
+  if (!jet.is_autonomous) file.attribute(root, "autonomous", std::string("no"));
   file.attribute(root, "state", names_of(names));
   file.attribute(root, "components", names_of(names, jet.components));
   file.attribute(root, "variables", names_of(names, jet.variables));

@@ -37,6 +37,7 @@ class GaussArcs : public ArcIntegrator<Real> {
   const std::vector<Real>& state(std::size_t checkpoint) const override {
     return checkpoints_[checkpoint].state;
   }
+  Real time(std::size_t checkpoint) const override { return checkpoints_[checkpoint].at.time; }
 
   FlowJet<Real> run_arc(std::size_t checkpoint, long last, const SpacePointer& space,
                         const std::vector<std::size_t>& variables, const FlowJet<Real>& start,
@@ -56,7 +57,7 @@ class GaussArcs : public ArcIntegrator<Real> {
   StepCost cost(const SeriesSpace& space) const override {
     const OperationList& list = problem_.system->evaluated_list();
     const int order = working_order(*problem_.system, space.order());
-    const double components = static_cast<double>(list.inputs());
+    const double components = static_cast<double>(list.variables());
     const double stages = settings_.stages;
     const double dimension = static_cast<double>(problem_.system->dimension());
     const double values = static_cast<double>(list.operations().size());

@@ -42,6 +42,7 @@ class GaussIntegrator {
         settings_(settings),
         statistics_(statistics),
         order_(working_order(problem)),
+        start_time_(problem.start_time.template in<Real>()),
         stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
                 problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
@@ -135,9 +136,13 @@ class GaussIntegrator {
     }
   }
 
-  /// Evaluates the slopes g at the constant terms of the state.
+  /// The present time of the system's clock.
+  Real now() const { return start_time_ + (at_.time - at_.lost_time); }
+
+  /// Evaluates the slopes g at the constant terms of the state, at the present time.
   void evaluate_end_slope(std::vector<Real>& slope) {
     const std::size_t m = stages_.system().components();
+    point_.set_time(now());
     for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.constant(c);
     point_.evaluate_constant_values();
     slope.assign(m, Real(0));
@@ -175,7 +180,7 @@ class GaussIntegrator {
                         static_cast<double>(h), static_cast<double>(at_.time)));
       }
       step_ = h;
-      const bool is_solved = nominal_.solve(h, guess_);
+      const bool is_solved = nominal_.solve(now(), h, guess_);
       account(&GaussProfile::nominal, mark);
       if (settings_.step) {
         if (!is_solved) fail_fixed_step(h);
@@ -210,7 +215,6 @@ class GaussIntegrator {
       }
       h *= Real(std::min(growth, 0.9));
     }
-    advance_jet(h);
     at_.previous_step = h;
     guess_ = {Real(1), h};
     ++at_.taken;
@@ -230,6 +234,7 @@ class GaussIntegrator {
       limit_step_count("Gauss", at_.taken, static_cast<double>(at_.time),
                        static_cast<double>(problem_.duration));
     }
+    advance_jet(h);
     account(&GaussProfile::update, mark);
   }
 
@@ -237,13 +242,13 @@ class GaussIntegrator {
   void repeat_step(const GaussCheckpoint<Real, Lanes>& end) {
     auto mark = profile_mark();
     step_ = end.at.previous_step;
-    stages_.system().set_step(step_);
+    stages_.begin_step(now(), step_);
     stages_.restore(end.slopes, end.is_by_newton);
     stages_.evaluate_at_slopes(jet_.start(), statistics_);
     if (!solve_degrees(mark)) fail_fixed_step(step_);
+    at_ = end.at;
     advance_jet(step_);
     account(&GaussProfile::update, mark);
-    at_ = end.at;
     guess_ = {Real(1), step_};
     ++statistics_.steps;
     statistics_.vector_field_evaluations += settings_.stages;
@@ -311,7 +316,7 @@ class GaussIntegrator {
     return EndMap<Real, Lanes>();
   }
 
-  /// Advances the jet to the new state, using the stages.
+  /// Advances the jet to the new state, at the present time, using the stages.
   void advance_jet(const Real& h) {
     jet_.advance(stages_, h, end_map_ ? 0 : order_);
     if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_);
@@ -323,6 +328,7 @@ class GaussIntegrator {
   IntegrationStatistics& statistics_;
   IntegrationClock clock_;
   int order_;
+  Real start_time_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   std::optional<EndMap<Real, Lanes>> end_map_;

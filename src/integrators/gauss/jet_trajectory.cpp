@@ -58,8 +58,10 @@ void JetTrajectory<Real>::keep(const FlowJet<Real>& jet) {
 }
 
 template <class Real>
-FlowJet<Real> JetTrajectory<Real>::step(FlowJet<Real> jet, const Real& length) const {
+FlowJet<Real> JetTrajectory<Real>::step(FlowJet<Real> jet, const Real& from,
+                                        const Real& length) const {
   FlowProblem<Real> problem = problem_;
+  problem.start_time = problem_.start_time + from;
   for (std::size_t i = 0; i < jet.size(); ++i) problem.initial_state[i] = jet[i][0];
   problem.initial_jet = std::move(jet);
   problem.duration = length;
@@ -87,8 +89,10 @@ FlowJet<Real> JetTrajectory<Real>::at(const Real& time) const {
   const auto last = static_cast<std::size_t>(after - times_.begin()) - 1;
   std::size_t taken = std::min(last / stride_, kept_.size() - 1) * stride_;
   FlowJet<Real> jet = kept_[taken / stride_];
-  for (; taken < last; ++taken) jet = step(std::move(jet), times_[taken + 1] - times_[taken]);
-  return time == times_[last] ? jet : step(std::move(jet), time - times_[last]);
+  for (; taken < last; ++taken) {
+    jet = step(std::move(jet), times_[taken], times_[taken + 1] - times_[taken]);
+  }
+  return time == times_[last] ? jet : step(std::move(jet), times_[last], time - times_[last]);
 }
 
 template class JetTrajectory<InstantiatedReal>;

@@ -40,10 +40,11 @@ class NominalStages {
         start_slope_(start_slope),
         statistics_(statistics) {}
 
-  /// Solves for a step, from the guess in the stages; if that fails, from constant slopes; and
-  /// along growing step sizes if the solution might not be the one connected to the start. Returns
-  /// false if there is no solution.
-  bool solve(const Real& h, const std::optional<KnownSlopes<Real>>& guess) {
+  /// Solves for a step h at a time of the system's clock, from the guess in the stages; if that
+  /// fails, from constant slopes; and along growing step sizes if the solution might not be the one
+  /// connected to the start. Returns false if there is no solution.
+  bool solve(const Real& time, const Real& h, const std::optional<KnownSlopes<Real>>& guess) {
+    time_ = time;
     if (guess) {
       stages_.reposition(guess->start, Real(h / guess->step));
       if (try_step(h) && !is_suspicious(h)) return true;
@@ -55,7 +56,7 @@ class NominalStages {
 
  private:
   bool try_step(const Real& h) {
-    stages_.system().set_step(h);
+    stages_.begin_step(time_, h);
     return stages_.solve_constant_terms(jet_.start(), statistics_);
   }
 
@@ -119,6 +120,7 @@ class NominalStages {
   }
 
   bool is_linear_;
+  Real time_ = 0;
   const GaussSettings& settings_;
   StageSlopes<Real, Lanes>& stages_;
   const SummedJet<Real, Lanes>& jet_;

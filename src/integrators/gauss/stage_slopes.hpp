@@ -39,7 +39,11 @@ class StageSlopes {
   StageSlopes(const StageSlopes&) = delete;
   StageSlopes& operator=(const StageSlopes&) = delete;
 
-  StageSystem<Real, Lanes>& system() { return system_; }
+  /// Begins a step h at a time of the system's clock.
+  void begin_step(const Real& time, const Real& h) {
+    system_.set_step(h);
+    if (evaluator_.has_time()) evaluator_.set_time(P(time) + P(h) * system_.nodes());
+  }
   const StageSystem<Real, Lanes>& system() const { return system_; }
   SliceEvaluator<P, Real>& evaluator() { return evaluator_; }
   std::vector<P>& slopes() { return slopes_; }

@@ -47,7 +47,7 @@ void run_in_lanes(const FlowProblem<double>& problem, const GaussSettings& setti
   const auto run = [&]<int Components>(std::integral_constant<int, Components>) {
     LaneIntegrator<Components>(problem, settings, controlled_order).run(next, done);
   };
-  switch (problem.system->evaluated_list().inputs()) {
+  switch (problem.system->evaluated_list().variables()) {
     case 2:
       return run(std::integral_constant<int, 2>{});
     case 3:

@@ -15,7 +15,7 @@ class LaneField {
  public:
   LaneField(const DynamicalSystem& system, std::size_t stages, int order)
       : stages_(stages),
-        inputs_(system.evaluated_list().inputs()),
+        inputs_(system.evaluated_list().variables()),
         list_(system.evaluated_list()),
         half_(list_, SeriesSpace::create(inputs_, 0), 0),
         whole_(list_, SeriesSpace::create(inputs_, 0), 0),
@@ -23,6 +23,19 @@ class LaneField {
     for (std::size_t c = 0; c < inputs_ && order >= 2; ++c) {
       const SeriesSpace& space = *(space_ = SeriesSpace::create(inputs_, order));
       point_.input(c)[space.linear_index(c)] = Orbits(1.0);
+    }
+  }
+
+  /// Sets the times of the system's clock at the stages, time(i); nothing is done for a system
+  /// without time.
+  template <class Time>
+  void set_stage_times(const Time& time) {
+    if (!point_.has_time()) return;
+    const std::size_t count = point_.numbers();
+    numbers_.resize(count * stages_);
+    for (std::size_t i = 0; i < stages_; ++i) {
+      point_.set_time(time(i));
+      for (std::size_t k = 0; k < count; ++k) numbers_[k * stages_ + i] = point_.number(k);
     }
   }
 
@@ -59,9 +72,11 @@ class LaneField {
     }
   }
 
-  /// Sets the slopes at one point, whose component c is `place(c)`.
+  /// Sets the slopes at one point, whose component c is `place(c)`, at a time of the system's
+  /// clock.
   template <class Place>
-  void evaluate_at(const Place& place, std::vector<Orbits>& slopes) {
+  void evaluate_at(const Orbits& time, const Place& place, std::vector<Orbits>& slopes) {
+    point_.set_time(time);
     for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = place(c);
     point_.evaluate_constant_values();
     for (std::size_t c = 0; c < inputs_; ++c) slopes[c] = point_.output(c)[0];
@@ -85,6 +100,11 @@ class LaneField {
   void evaluate_second(const std::vector<Orbits>& places, std::vector<Orbits>& second) {
     for (std::size_t i = 0; i < stages_; ++i) {
       for (std::size_t c = 0; c < inputs_; ++c) point_.input(c)[0] = places[c * stages_ + i];
+      if (point_.has_time()) {
+        for (std::size_t k = 0; k < point_.numbers(); ++k) {
+          point_.number(k) = numbers_[k * stages_ + i];
+        }
+      }
       point_.evaluate_constant_terms();
       point_.complete(1);
       point_.evaluate_remainder(2);
@@ -112,14 +132,18 @@ class LaneField {
   /// one of the group is repeated.
   template <class Evaluator>
   void put(const std::vector<Orbits>& places, std::size_t first, Evaluator& group) const {
-    for (std::size_t c = 0; c < inputs_; ++c) {
-      auto& input = *group.input(c);
-      for (std::size_t i = 0; i * Orbits::parts < input.part.size(); ++i) {
+    const auto put_stages = [&](const Orbits* values, auto& target) {
+      for (std::size_t i = 0; i * Orbits::parts < target.part.size(); ++i) {
         const std::size_t stage = first + i < stages_ ? first + i : first;
         for (std::size_t p = 0; p < Orbits::parts; ++p) {
-          input.part[i * Orbits::parts + p] = places[c * stages_ + stage].part[p];
+          target.part[i * Orbits::parts + p] = values[stage].part[p];
         }
       }
+    };
+    for (std::size_t c = 0; c < inputs_; ++c) put_stages(&places[c * stages_], *group.input(c));
+    if (!group.has_time()) return;
+    for (std::size_t k = 0; k < group.numbers(); ++k) {
+      put_stages(&numbers_[k * stages_], group.number(k));
     }
   }
   template <class Evaluator>
@@ -142,6 +166,7 @@ class LaneField {
   Group<half> half_;
   Group<2 * half> whole_;
   SliceEvaluator<Orbits, double> point_;
+  std::vector<Orbits> numbers_;  ///< the values that depend on the time alone, by stage
   SpacePointer space_;
 };
 

@@ -47,7 +47,8 @@ class LaneIntegrator {
 
   LaneIntegrator(const FlowProblem<double>& problem, const GaussSettings& settings,
                  int controlled_order)
-      : duration_(problem.duration),
+      : start_time_(problem.start_time.in<double>()),
+        duration_(problem.duration),
         settings_(settings),
         order_(working_order(problem)),
         stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
@@ -95,6 +96,15 @@ class LaneIntegrator {
     return [this](std::size_t c) -> const Orbits& { return jets_.state(c); };
   }
 
+  /// The present times of the system's clock in the lanes.
+  Orbits now() const {
+    EachOrbit times{};
+    for (std::size_t k = 0; k < orbit_lanes; ++k) {
+      times[k] = start_time_ + (lanes_[k].time - lanes_[k].lost_time);
+    }
+    return together(times);
+  }
+
   /// Gives orbits to the lanes that have none; returns false if no lane has an orbit.
   bool fill(const Next& next) {
     EachOrbit is_new{};
@@ -117,7 +127,7 @@ class LaneIntegrator {
       is_any_live = is_any_live || lanes_[k].is_live;
     }
     if (is_any_new) {
-      stages_.field().evaluate_at(state(), start_slopes_);
+      stages_.field().evaluate_at(now(), state(), start_slopes_);
       const EachOrbit norms = apart(stages_.field().gradient_norm());
       for (std::size_t k = 0; k < orbit_lanes; ++k) {
         if (is_new[k] != 0) propose_first_step(lanes_[k], norms[k]);
@@ -165,16 +175,19 @@ class LaneIntegrator {
       }
     }
     const EachOrbit unsolved = apart(jets_.advance(stages_, together(taken)));
-    stages_.field().evaluate_at(state(), start_slopes_);
-    const EachOrbit finite = apart(check_finite());
     for (std::size_t k = 0; k < orbit_lanes; ++k) {
       if (live[k] == 0) continue;
       if (taken[k] == 0) {
         refuse(lanes_[k], solved[k] != 0, errors[k]);
       } else {
         accept(k, errors[k]);
-        if (finite[k] != 0 || unsolved[k] != 0) lanes_[k].has_failed = true;
       }
+    }
+    stages_.field().evaluate_at(now(), state(), start_slopes_);
+    const EachOrbit finite = apart(check_finite());
+    for (std::size_t k = 0; k < orbit_lanes; ++k) {
+      const bool is_bad = finite[k] != 0 || unsolved[k] != 0;
+      if (taken[k] != 0 && is_bad) lanes_[k].has_failed = true;
     }
   }
 
@@ -199,7 +212,7 @@ class LaneIntegrator {
       lane.step = h;
       steps[k] = h;
     }
-    stages_.set_step(together(steps));
+    stages_.begin_step(now(), together(steps));
   }
 
   void guess_slopes() {
@@ -285,6 +298,7 @@ class LaneIntegrator {
     return result;
   }
 
+  double start_time_;
   double duration_;
   GaussSettings settings_;
   int order_;

@@ -21,7 +21,7 @@ class LaneStages {
  public:
   LaneStages(const DynamicalSystem& system, const GaussTableau& tableau, int order)
       : is_second_order_(system.second_order.has_value()),
-        components_(system.evaluated_list().inputs()),
+        components_(system.evaluated_list().variables()),
         coefficients_(tableau, is_second_order_),
         field_(system, tableau.stages, order),
         places_(components_ * tableau.stages),
@@ -45,7 +45,10 @@ class LaneStages {
   /// h^2, or h for a first-order system.
   const Orbits& scale() const { return scale_; }
 
-  void set_step(const Orbits& h) {
+  /// Begins steps h at times of the system's clock.
+  void begin_step(const Orbits& time, const Orbits& h) {
+    field_.set_stage_times(
+        [&](std::size_t i) { return time + h * Orbits(coefficients_.nodes[i]); });
     step_ = h;
     scale_ = is_second_order_ ? h * h : h;
   }

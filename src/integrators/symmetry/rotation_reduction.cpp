@@ -75,7 +75,8 @@ RotationReduction<Real>::RotationReduction(const FlowProblem<Real>& problem,
     : planes_(problem.system->rotated_planes),
       section_(2 * section),
       scales_(scales),
-      whole_space_(problem.space) {
+      whole_space_(problem.space),
+      reduced_(problem) {
   const auto& variables = problem.variables;
   for (const auto& plane : planes_) rotated_.insert(rotated_.end(), plane.begin(), plane.end());
   for (const std::size_t i : rotated_) {
@@ -124,7 +125,6 @@ void RotationReduction<Real>::set_basis(const Numbers& y0) {
 
 template <class Real>
 void RotationReduction<Real>::set_reduced_problem(const FlowProblem<Real>& problem) {
-  reduced_ = problem;
   reduced_.symmetry = FlowSymmetry::none;
   reduced_.space = SeriesSpace::create(problem.space->variables() - 1, problem.space->order());
   reduced_.variables.clear();

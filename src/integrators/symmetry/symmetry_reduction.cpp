@@ -13,7 +13,8 @@ std::optional<SymmetryReduction<Real>> SymmetryReduction<Real>::of(
   }
   SymmetryReduction result;
   result.rotation_ = RotationReduction<Real>::of(problem);
-  if (has_time_shift(problem.symmetry)) {
+  // A flow that depends on the time does not commute with shifts in it.
+  if (has_time_shift(problem.symmetry) && problem.system->is_autonomous()) {
     std::optional<LeftOutRotation> rotation;
     if (result.rotation_) rotation = result.rotation_->left_out();
     result.time_ =

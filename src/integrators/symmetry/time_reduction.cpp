@@ -68,8 +68,8 @@ std::vector<double> parts_of_speed(const FlowProblem<Real>& problem,
   const std::size_t n = problem.system->degrees_of_freedom;
   const std::span<const Real> z(problem.initial_state);
   FieldAtStates<Real> field(*problem.system);
-  const std::vector<double> gradient = field.energy_gradient(z);
-  const double scale = field.momentum_scale(z);
+  const std::vector<double> gradient = field.energy_gradient(z, problem.start_time);
+  const double scale = field.momentum_scale(z, problem.start_time);
   std::vector<double> speed;
   for (std::size_t i = 0; i < n; ++i) speed.push_back(gradient[n + i]);
   for (std::size_t i = 0; i < n; ++i) speed.push_back(-gradient[i]);
@@ -124,13 +124,16 @@ template <class Real>
 TimeReduction<Real>::TimeReduction(const FlowProblem<Real>& problem,
                                    const std::optional<LeftOutRotation>& rotation,
                                    std::size_t left_out)
-    : system_(problem.system), space_(problem.space), left_out_(left_out), rotation_(rotation) {
+    : system_(problem.system),
+      space_(problem.space),
+      left_out_(left_out),
+      rotation_(rotation),
+      reduced_(problem) {
   set_reduced_problem(problem);
 }
 
 template <class Real>
 void TimeReduction<Real>::set_reduced_problem(const FlowProblem<Real>& problem) {
-  reduced_ = problem;
   reduced_.symmetry = FlowSymmetry::none;
   reduced_.space = SeriesSpace::create(space_->variables() - 1, space_->order());
   reduced_.variables.erase(reduced_.variables.begin() + static_cast<std::ptrdiff_t>(left_out_));

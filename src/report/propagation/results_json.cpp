@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
 #include "../../scene/system_json.hpp"
@@ -220,6 +221,10 @@ std::string summary_json(const PropagationResult& result) {
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
   if (!scene.system.own_names.empty()) json["state_names"] = scene.system.own_names;
+  if (scene.start_time != ClockTime::epoch()) {
+    json["start_canonical"] = scene.start_time.in<double>();
+  }
+  if (!is_autonomous(*result.problem.system)) json["autonomous"] = false;
   if (result.reference) {
     const ReferenceResult& reference = *result.reference;
     std::vector<double> state(scene.nominal.size(), 0);

@@ -119,7 +119,7 @@ class BoundedStudy {
     const double ahead =
         settings_.along_track * deputy.wanted_m / units_.length_m / flight_.semi_major_axis() -
         turn * flight_.cosine();
-    return flight_.flown_on(vector_of(state), ahead / flight_.mean_motion());
+    return flight_.flown_on(vector_of(state), 0, ahead / flight_.mean_motion());
   }
 
   /// The deputy of a rule whose eccentricity vector differs by so much, with its share of the size

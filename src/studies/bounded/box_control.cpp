@@ -34,7 +34,7 @@ class Company {
  public:
   Company(const Scene& scene, std::vector<double> chief, std::vector<double> deputy,
           std::vector<double> member)
-      : settings_(&scene.bounded->box), units_(metric_units(scene)) {
+      : settings_(&scene.bounded->box), units_(metric_units(scene)), now_(scene.start_time) {
     for (const auto* state : {&chief, &deputy, &member}) {
       states_.insert(states_.end(), state->begin(), state->end());
     }
@@ -43,7 +43,8 @@ class Company {
   void advance(TaylorFlow& flow, double time) {
     std::array<double, 3> times;
     times.fill(time);
-    flow.advance(states_, std::span(times).first(states_.size() / numbers_of_state));
+    flow.advance(states_, now_, std::span(times).first(states_.size() / numbers_of_state));
+    now_ = now_ + time;
     for (const double x : states_) {
       if (!std::isfinite(x)) {
         throw Error(ErrorKind::numerical, "bounded: the flight in the box ends in a collision");
@@ -51,6 +52,7 @@ class Company {
     }
   }
 
+  const ClockTime& now() const { return now_; }
   std::vector<double> chief() const { return state(0); }
   std::vector<double> deputy() const { return state(1); }
   void set_deputy(std::span<const double> deputy) {
@@ -80,6 +82,7 @@ class Company {
 
   const BoxSettings* settings_;
   MetricUnits units_;
+  ClockTime now_;  ///< the system's clock at the states
   std::vector<double> states_;
 };
 
@@ -192,6 +195,7 @@ class Keeper {
   void bring_back() {
     std::optional<Flown> best;
     problem_.nominal = company_.chief();
+    problem_.start_time = company_.now();
     JetPropagation jets(problem_, integrator_);
     for (const double part : settings_.return_orbits) {
       const double duration = part * revolution_;

@@ -30,6 +30,7 @@ CompanyFlight::CompanyFlight(const Scene& scene, const FlowSection<double>& sect
                              double mean_period)
     : section_(section),
       system_(make_system(scene)),
+      start_time_(scene.start_time),
       units_(metric_units(scene)),
       mu_(orbit_field(scene).mu),
       nodal_period_(nodal_period),
@@ -52,18 +53,19 @@ CompanyFlight::CompanyFlight(const Scene& scene, const FlowSection<double>& sect
   choose_times_of_orbit();
   chief_.push_back(scene.nominal);
   for (std::size_t k = 1; k < times_.size(); ++k) {
-    chief_.push_back(flown_on(chief_.back(), times_[k] - times_[k - 1]));
+    chief_.push_back(flown_on(chief_.back(), times_[k - 1], times_[k] - times_[k - 1]));
   }
-  chief_first_ = orbit_from(chief_.front());
-  chief_last_ = orbit_from(chief_.back());
+  chief_first_ = orbit_from(chief_.front(), 0);
+  chief_last_ = orbit_from(chief_.back(), times_.back());
 }
 
 double CompanyFlight::sine() const { return std::sqrt((1 - cosine_) * (1 + cosine_)); }
 
 double CompanyFlight::mean_motion() const { return 2 * std::numbers::pi / mean_period_; }
 
-std::vector<double> CompanyFlight::flown_on(const std::vector<double>& state, double time) const {
-  return exact_flow(system_, state, time);
+std::vector<double> CompanyFlight::flown_on(const std::vector<double>& state, double since,
+                                            double time) const {
+  return exact_flow(system_, state, start_time_ + since, time);
 }
 
 /// One revolution in equal steps of the chief's eccentric anomaly, so that its pericentre has as
@@ -85,9 +87,13 @@ void CompanyFlight::choose_times_of_orbit() {
 }
 
 /// States along one revolution.
-std::vector<std::vector<double>> CompanyFlight::orbit_from(const std::vector<double>& start) const {
+std::vector<std::vector<double>> CompanyFlight::orbit_from(const std::vector<double>& start,
+                                                           double since) const {
   std::vector<std::vector<double>> orbit = {start};
-  for (const double step : steps_of_orbit_) orbit.push_back(flown_on(orbit.back(), step));
+  for (const double step : steps_of_orbit_) {
+    orbit.push_back(flown_on(orbit.back(), since, step));
+    since += step;
+  }
   return orbit;
 }
 
@@ -105,10 +111,10 @@ std::vector<RelativeState> CompanyFlight::relative_orbit(
 }
 
 std::vector<RelativeState> CompanyFlight::first_orbit(const std::vector<double>& deputy) const {
-  return relative_orbit(chief_first_, orbit_from(deputy));
+  return relative_orbit(chief_first_, orbit_from(deputy, 0));
 }
 
-CompanyFlight::Passage CompanyFlight::passage_of(std::vector<double> state,
+CompanyFlight::Passage CompanyFlight::passage_of(std::vector<double> state, double since,
                                                  const SixNumbers<double>& chief) const {
   const CanonicalChart<double>& chart = section_.chart();
   constexpr int most_iterations = 30;
@@ -119,7 +125,7 @@ CompanyFlight::Passage CompanyFlight::passage_of(std::vector<double> state,
   double rate = mu_ * mu_ / (z[3] * z[3] * z[3]);
   for (int i = 0; i < most_iterations && std::abs(angle) > close; ++i) {
     const double step = angle / rate;
-    state = flown_on(state, step);
+    state = flown_on(state, since + passage.delay, step);
     passage.delay += step;
     z = chart.coordinates(six_numbers(state));
     const double left = within_half_a_turn(chief[0] - z[0]);
@@ -150,8 +156,8 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
   deputy.least_size_m = deputy.lowest_m = std::numeric_limits<double>::infinity();
   deputy.largest_size_m = 0;
   for (std::size_t k = 0; k < times_.size(); ++k) {
-    if (k > 0) state = flown_on(state, times_[k] - times_[k - 1]);
-    const Passage passage = passage_of(state, chart.coordinates(six_numbers(chief_[k])));
+    if (k > 0) state = flown_on(state, times_[k - 1], times_[k] - times_[k - 1]);
+    const Passage passage = passage_of(state, times_[k], chart.coordinates(six_numbers(chief_[k])));
     if (k == 0) first = passage;
     // Differences of angles go on from the last ones, so that whole turns are not lost; so do the
     // delays of a deputy that has drifted half a revolution away.
@@ -160,11 +166,11 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
     along.push_back(semi_major_axis_ * (angle + cosine_ * node));
     cross.push_back(semi_major_axis_ * sine() * node);
     // The first part of the times is that of a tenth of the window.
-    if (k == 0 || k > in_tenth_.back()) add_revolution(chief_[k], state, deputy);
+    if (k == 0 || k > in_tenth_.back()) add_revolution(chief_[k], state, times_[k], deputy);
   }
-  const std::vector<std::vector<double>> orbit = orbit_from(deputy.state);
+  const std::vector<std::vector<double>> orbit = orbit_from(deputy.state, 0);
   deputy.first = relative_orbit(chief_first_, orbit);
-  deputy.last = relative_orbit(chief_last_, orbit_from(state));
+  deputy.last = relative_orbit(chief_last_, orbit_from(state, times_.back()));
   deputy.size_m = largest_distance_m(deputy.first);
   deputy.drifts = {drift_of(in_tenth_, along, cross), drift_of(in_window_, along, cross)};
   for (BoundedDrift& drift : deputy.drifts) {
@@ -177,10 +183,11 @@ void CompanyFlight::fly(BoundedDeputy& deputy) const {
 }
 
 void CompanyFlight::add_revolution(const std::vector<double>& chief,
-                                   const std::vector<double>& state, BoundedDeputy& deputy) const {
+                                   const std::vector<double>& state, double since,
+                                   BoundedDeputy& deputy) const {
   ExtremeDistance farthest(ExtremeDistance::Kind::greatest);
   ExtremeDistance lowest(ExtremeDistance::Kind::least);
-  fly_arcs(system_, {chief, state}, 0, nodal_period_, [&](const FlightArc& arc) {
+  fly_arcs(system_, {chief, state}, start_time_ + since, nodal_period_, [&](const FlightArc& arc) {
     farthest.add(arc, separation_along(arc, 0, 1));
     lowest.add(arc, place_along(arc, 1));
   });

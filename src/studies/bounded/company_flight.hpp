@@ -5,6 +5,7 @@
 
 #include "bounded_formation.hpp"
 #include "hamjet/charts/flow_section.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 
 namespace hamjet {
 
@@ -22,8 +23,8 @@ class CompanyFlight {
   double sine() const;
   double mean_motion() const;  ///< radians a canonical unit of time, from node to node
 
-  /// The state after a time.
-  std::vector<double> flown_on(const std::vector<double>& state, double time) const;
+  /// The state, which stands `since` after the start, after a time.
+  std::vector<double> flown_on(const std::vector<double>& state, double since, double time) const;
   /// The deputy relative to the chief along the first revolution.
   std::vector<RelativeState> first_orbit(const std::vector<double>& deputy) const;
   /// Flies the deputy over the window: fills its first and last orbit, size, lowest point and
@@ -40,20 +41,22 @@ class CompanyFlight {
     double delay = 0;
     double node = 0;
   };
-  Passage passage_of(std::vector<double> state, const SixNumbers<double>& chief) const;
+  Passage passage_of(std::vector<double> state, double since,
+                     const SixNumbers<double>& chief) const;
   void choose_times_of_orbit();
-  std::vector<std::vector<double>> orbit_from(const std::vector<double>& start) const;
+  std::vector<std::vector<double>> orbit_from(const std::vector<double>& start, double since) const;
   std::vector<RelativeState> relative_orbit(const std::vector<std::vector<double>>& chief,
                                             const std::vector<std::vector<double>>& deputy) const;
   /// The size and the lowest point of the revolution that begins at these states.
   void add_revolution(const std::vector<double>& chief, const std::vector<double>& state,
-                      BoundedDeputy& deputy) const;
+                      double since, BoundedDeputy& deputy) const;
   BoundedDrift drift_of(std::span<const std::size_t> places, const std::vector<double>& along,
                         const std::vector<double>& cross) const;
   double slope_of(std::span<const std::size_t> places, const std::vector<double>& values) const;
 
   const FlowSection<double>& section_;
   SharedSystem system_;
+  ClockTime start_time_;
   MetricUnits units_;
   double mu_;
   double nodal_period_;

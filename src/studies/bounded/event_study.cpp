@@ -13,6 +13,7 @@
 #include "../../algebra/other_units.hpp"
 #include "../../algebra/scalar_search.hpp"
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -50,8 +51,9 @@ class EventSearch {
   EventSearch(const Scene& scene, const EventCondition<double>& condition)
       : condition_(condition),
         direction_(scene.event->direction),
-        trajectory_(trajectory_problem(make_system(scene), scene.nominal, scene.duration),
-                    scene_gauss(scene, most_event_tolerance)) {}
+        trajectory_(
+            trajectory_problem(make_system(scene), scene.nominal, scene.start_time, scene.duration),
+            scene_gauss(scene, most_event_tolerance)) {}
 
   /// The time of the event of a number; none if there are fewer, whose count is then found().
   std::optional<double> find(int number) {
@@ -183,7 +185,7 @@ class EventFlights {
   /// Of a circle through the chief's start.
   double mean_motion() const {
     const Eigen::Vector3d chief(scene_.nominal.data());
-    return std::sqrt(orbit_field(scene_).mu / std::pow(chief.norm(), 3));
+    return std::sqrt(canonical_mu / std::pow(chief.norm(), 3));
   }
 
   /// The size in position, and that times the mean motion of the chief's distance in velocity, each
@@ -226,7 +228,7 @@ class EventFlights {
     if (!(std::abs(time - chiefs) <= std::max(std::abs(chiefs), 1 / mean_motion()))) {
       throw Error(ErrorKind::numerical, "event: the polynomials give no time near the chief's");
     }
-    const State end = exact_flow(system_, start, time);
+    const State end = exact_flow(system_, start, scene_.start_time, time);
     Eigen::Vector3d apart;
     for (std::size_t i = 0; i < 3; ++i) {
       apart[static_cast<Eigen::Index>(i)] = end[i] - predicted(map_.state[i], deviation, is_linear);
@@ -234,7 +236,8 @@ class EventFlights {
     // The slope need only be right to a few digits.
     const double later = std::ldexp(std::abs(map_.time[0]), -16);
     const double value = value_at(condition_, end);
-    const double slope = (value_at(condition_, exact_flow(system_, end, later)) - value) / later;
+    const State flown_on = exact_flow(system_, end, scene_.start_time + time, later);
+    const double slope = (value_at(condition_, flown_on) - value) / later;
     return {apart.norm() * metres(), std::abs(value / slope) * scene_.units.time_s};
   }
 
@@ -248,7 +251,7 @@ class EventFlights {
 /// that of the map less what the time's change adds along the chief's motion.
 double rounding_at(const EventStudy& study) {
   const State end = study.state();
-  const double mu = orbit_field(study.scene).mu;
+  const double mu = canonical_mu;
   const double distance = std::hypot(end[0], end[1], end[2]);
   Matrix<double> linear(6, 6);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -308,6 +311,12 @@ EventCondition<double> event_condition(const Scene& scene) {
 
 EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.event.has_value(), "event");
+  if (!is_autonomous(make_system(scene))) {
+    throw Error(
+        ErrorKind::scene,
+        "event: the model's forces depend on the time, and the times of neighbours would be "
+        "no argument of theirs; must be zonal-gravity or kepler");
+  }
   const EventCondition<double> condition = event_condition(scene);
   if (progress) progress("event", 0);
   EventSearch search(scene, condition);
@@ -325,12 +334,13 @@ EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);
-  EventStudy study{scene,
-                   event_map<double>(make_system(scene), chief, *near, scene.order,
-                                     scene_gauss(scene, most_event_tolerance), condition),
-                   0,
-                   flown_deputies,
-                   {}};
+  EventStudy study{
+      scene,
+      event_map<double>(make_system(scene), chief, scene.start_time, *near, scene.order,
+                        scene_gauss(scene, most_event_tolerance), condition),
+      0,
+      flown_deputies,
+      {}};
   const EventFlights flights(scene, condition, study.map);
   const std::vector<double>& amplitudes = scene.event->amplitudes_m;
   for (std::size_t k = 0; k < amplitudes.size(); ++k) {

@@ -230,7 +230,7 @@ FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& 
   study.area_defect = static_cast<double>(Extended(d[0] * d[3] - d[1] * d[2] - 1));
   study.iterations = frozen.iterations;
   std::vector<CheckedFlight> flights = flights_of(scene, study.nodal_period, false);
-  flights.push_back({"the frozen orbit", study.state, study.nodal_period});
+  flights.push_back({"the frozen orbit", study.state, scene.start_time, study.nodal_period});
   study.checks = flight_checks(scene, flights);
   try {
     add_normal_form(field, chief, progress, study);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/single_transfer.hpp"
@@ -26,15 +27,17 @@ struct FlightOutcome {
 
 FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  EnergyError energy(*system, flight.start);
+  EnergyError energy(*system, flight.start, flight.start_time);
   // If terms cancel, their sum is no scale for the change.
-  energy.value(extended(flight.start));
+  energy.value(extended(flight.start), flight.start_time);
   const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
                                 energy.terms(extended(flight.start)) / 100);
   FlightOutcome outcome;
-  fly_arcs(system, {flight.start}, 0, flight.time, [&](const FlightArc& arc) {
+  fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
-    const Extended change = energy.value(extended(arc.state(0, 1))) - energy.initial();
+    const Extended change =
+        energy.value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
+        energy.initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
     if (!(size <= outcome.energy_change)) outcome.energy_change = size;
   });
@@ -71,12 +74,12 @@ void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& wo
 }  // namespace
 
 std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy) {
-  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, time}};
+  std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, scene.start_time, time}};
   if (with_deputy && scene.deputy) {
     const std::vector<double> deviation =
         ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
             .deviation(scene.deputy->start);
-    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), time});
+    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), scene.start_time, time});
   }
   return flights;
 }
@@ -88,11 +91,11 @@ std::optional<double> surface_limit(const Scene& scene) {
 }
 
 LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start,
-                         double time) {
+                         const ClockTime& start_time, double time) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
   LowestPoint lowest;
   try {
-    fly_arcs(system, {start}, 0, time,
+    fly_arcs(system, {start}, start_time, time,
              [&](const FlightArc& arc) { least.add(arc, place_along(arc, 0)); });
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
@@ -122,10 +125,15 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     surface.limit.reset();
     surface.text = "the model has no radius";
   }
+  const SharedSystem system = make_system(scene);
+  if (energy.state != SelfCheckState::off && !is_autonomous(*system)) {
+    energy.state = SelfCheckState::not_applicable;
+    energy.limit.reset();
+    energy.text = "the forces depend on the time, so that no energy is kept";
+  }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
   if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
   const Stopwatch watch(energy.seconds);
-  const SharedSystem system = make_system(scene);
   const CheckedFlight* leaving = &flights.front();
   const CheckedFlight* falling = &flights.front();
   double change = 0;

@@ -12,6 +12,7 @@ namespace hamjet {
 struct CheckedFlight {
   std::string name;           ///< for example "the chief"
   std::vector<double> start;  ///< (q, p), in canonical units
+  ClockTime start_time;       ///< the system's clock at the start
   double time = 0;            ///< in canonical units; negative is backwards
 };
 
@@ -23,9 +24,11 @@ std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with
 /// no value if the check is off, or the model has no radius.
 std::optional<double> surface_limit(const Scene& scene);
 
-/// The least distance of a flight from the centre, also between its steps, in canonical units. If a
+/// The least distance of a flight from the centre, also between its steps, in canonical units; the
+/// start stands at `start_time` of the system's clock. If a
 /// flight cannot be followed, its distance is 0 and `failure` gives the reason.
-LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start, double time);
+LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& start,
+                         const ClockTime& start_time, double time);
 
 /// The self-checks that belong to every study, `energy` and `surface`, for its flights with the
 /// full equations of motion; each check reports the flight with the worst outcome. The table

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../../integrators/phase_space_scale.hpp"
 #include "../../text/quantity_text.hpp"
@@ -108,9 +109,12 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
   }
 }
 
+constexpr const char* no_energy = "the forces depend on the time, so that no energy is kept";
+
 void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   const EnergyAlongNominal& energy = run.energy;
   check.seconds += energy.seconds;
+  if (!is_autonomous(make_system(scene))) return not_applicable(check, no_energy);
   const double scale = std::max(std::abs(energy.initial), energy.initial_terms / 100);
   const double value = energy.largest_change > 0 ? energy.largest_change / scale : 0;
   double limit = largest_energy_change;

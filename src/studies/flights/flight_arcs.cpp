@@ -25,9 +25,10 @@ std::vector<double> FlightArc::state(std::size_t craft, double share) const {
 }
 
 std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
-                                          std::vector<std::vector<double>> states, double start,
-                                          double time,
-                                          const std::function<void(const FlightArc&)>& on_arc) {
+                                          std::vector<std::vector<double>> states,
+                                          const ClockTime& start_time, double time,
+                                          const std::function<void(const FlightArc&)>& on_arc,
+                                          double since) {
   // Functions of the polynomials are polynomials too, whose last powers fall a little later, so
   // that only this fraction of the reach is used.
   constexpr double used_reach = 0.8;
@@ -39,12 +40,13 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
   double flown = 0;
   do {
     FlightArc arc;
-    arc.start = start + flown;
+    arc.start = since + flown;
     arc.span = time - flown;
+    const ClockTime now = start_time + flown;
     for (std::size_t f = 0; f < flows.size(); ++f) {
       // Lanes without a state of their own repeat another one, so that they are finite.
       for (std::size_t lane = 0; lane < lanes; ++lane) {
-        flows[f].set_state(lane, states[std::min(f * lanes + lane, states.size() - 1)]);
+        flows[f].set_state(lane, now, states[std::min(f * lanes + lane, states.size() - 1)]);
       }
       flows[f].expand();
       for (std::size_t lane = 0; lane < lanes; ++lane) {

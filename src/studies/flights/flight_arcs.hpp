@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/algebra/truncated_power_series.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -12,7 +13,7 @@ namespace hamjet {
 /// A step of the flights of some spacecraft side by side. Throughout the step its polynomials leave
 /// out no more than rounding, so that nothing is missed between two evaluations.
 struct FlightArc {
-  double start = 0;  ///< in canonical time
+  double start = 0;  ///< in the time that the caller counts, canonical
   double span = 0;   ///< duration, negative backwards
   /// For each spacecraft, the components (q, p) as series in the fraction of the span that has
   /// passed.
@@ -27,12 +28,13 @@ struct FlightArc {
 double value_at(const Series<double>& series, double share);
 
 /// Flies the states (q, p) over a time, which may be negative, by Taylor's method in steps that all
-/// of them can take, and hands each arc to the caller. The flight's clock starts at `start`. A time
-/// of 0 gives one arc. Returns the states at the end. Throws Error(numerical) if one runs into a
-/// collision.
+/// of them can take, and hands each arc to the caller. All stand at `start_time` of the system's
+/// clock; the arcs count their times from `since`. A time of 0 gives one arc. Returns the states at
+/// the end. Throws Error(numerical) if one runs into a collision.
 std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
-                                          std::vector<std::vector<double>> states, double start,
-                                          double time,
-                                          const std::function<void(const FlightArc&)>& on_arc);
+                                          std::vector<std::vector<double>> states,
+                                          const ClockTime& start_time, double time,
+                                          const std::function<void(const FlightArc&)>& on_arc,
+                                          double since = 0);
 
 }  // namespace hamjet

@@ -27,27 +27,32 @@ double inverse_axis(const std::vector<double>& z) {
 /// A half-plane through the centre that orbits cross once per revolution.
 class Meridian {
  public:
-  Meridian(const SharedSystem& system, const std::vector<double>& chief) : system_(system) {
+  Meridian(const SharedSystem& system, const std::vector<double>& chief,
+           const ClockTime& start_time)
+      : system_(system), start_time_(start_time) {
     radial_ = place_of(chief).normalized();
     normal_ = place_of(chief).cross(velocity_of(chief)).normalized();
     along_ = normal_.cross(radial_);
   }
 
-  /// The time from the passage nearest to the present to the next one; no value if it is not found.
+  /// The time from the passage nearest to the start to the next one, for a state at the start; no
+  /// value if it is not found.
   std::optional<double> revolution(std::vector<double> state) const {
     const double inverse = inverse_axis(state);
     if (!(inverse > 0)) return std::nullopt;
     const double period = 2 * std::numbers::pi * std::pow(inverse, -1.5) / std::sqrt(canonical_mu);
-    if (!fly_to_passage(state, period)) return std::nullopt;
-    state = exact_flow(system_, state, period);
-    const auto rest = fly_to_passage(state, period);
+    const auto first = fly_to_passage(state, start_time_, period);
+    if (!first) return std::nullopt;
+    state = exact_flow(system_, state, start_time_ + *first, period);
+    const auto rest = fly_to_passage(state, start_time_ + (*first + period), period);
     if (!rest) return std::nullopt;
     return period + *rest;
   }
 
  private:
   /// Newton's method on the angle; returns the time that passed.
-  std::optional<double> fly_to_passage(std::vector<double>& state, double period) const {
+  std::optional<double> fly_to_passage(std::vector<double>& state, const ClockTime& from,
+                                       double period) const {
     constexpr int most_iterations = 40;
     constexpr double close = 1e-14;  // as a fraction of the period
     double taken = 0;
@@ -59,7 +64,7 @@ class Meridian {
       double step = -std::atan2(y, x) / rate;
       if (std::abs(step) <= close * period) return taken + step;
       step = std::clamp(step, -period / 8, period / 8);
-      state = exact_flow(system_, state, step);
+      state = exact_flow(system_, state, from + taken, step);
       taken += step;
       // The rounding of the flights allows no better result.
       if (i > 8 && std::abs(step) <= 100 * close * period) return taken;
@@ -68,6 +73,7 @@ class Meridian {
   }
 
   const SharedSystem& system_;
+  ClockTime start_time_;
   Vector3d radial_;
   Vector3d along_;
   Vector3d normal_;
@@ -103,7 +109,8 @@ std::optional<Vector3d> holding_change(const Meridian& meridian, const std::vect
 
 std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vector<double>& chief,
                                             const std::vector<double>& deviation,
-                                            RelativeFrame frame, bool finds_holding) {
+                                            const ClockTime& start_time, RelativeFrame frame,
+                                            bool finds_holding) {
   // The rounding of a flight over a revolution, relative to these numbers.
   constexpr double rounding = 1e-11;
   const MetricUnits units = metric_units(scene);
@@ -111,7 +118,7 @@ std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vecto
   const std::vector<double> deputy = state_sum(chief, deviation);
   RelativeDrift drift;
   try {
-    const Meridian meridian(system, chief);
+    const Meridian meridian(system, chief, start_time);
     const auto of_chief = meridian.revolution(chief);
     const auto of_deputy = meridian.revolution(deputy);
     if (!of_chief || !of_deputy) return std::nullopt;
@@ -142,7 +149,7 @@ std::optional<RelativeDrift> deputy_drift(const Scene& scene) {
   if (!scene.deputy) return std::nullopt;
   const ChiefFrame frame(scene.nominal, metric_units(scene), scene.deputy->frame);
   return relative_drift(scene, scene.nominal, frame.deviation(scene.deputy->start),
-                        scene.deputy->frame);
+                        scene.start_time, scene.deputy->frame);
 }
 
 }  // namespace hamjet

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <variant>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../descriptions/method_description.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
@@ -43,6 +44,12 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
 }
 
 ZonalGravity orbit_field(const Scene& scene) {
+  if (!is_autonomous(make_system(scene))) {
+    throw Error(ErrorKind::scene,
+                "model: its forces depend on the time, must be zonal-gravity or kepler for flow "
+                "boxes, nodal sections and frozen orbits, which need the flow to be the same at "
+                "every start; jet.coordinates = \"cartesian\" needs none");
+  }
   return {canonical_mu, scene.canonical_radius, scene.system.J};
 }
 
@@ -91,10 +98,7 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
                                              const CoordinatesAtEnds& coordinates)
-    : field_(orbit_field(scene)),
-      start_(six_numbers(problem.nominal)),
-      coordinates_(coordinates),
-      time_s_(scene.units.time_s) {
+    : start_(six_numbers(problem.nominal)), coordinates_(coordinates), time_s_(scene.units.time_s) {
   if (!coordinates.fit_each_other()) {
     throw Error(
         ErrorKind::usage,
@@ -102,6 +106,7 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
   }
   in_coordinates(coordinates.start, "at the start", [&] {
     if (coordinates.start == JetCoordinates::flow_box) {
+      field_ = orbit_field(scene);
       boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
                      gauss_settings_of(settings));
     } else {

@@ -28,12 +28,14 @@ RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double
     std::vector<double> chief_between = chief;
     std::vector<double> deputy_between = deputy;
     for (std::size_t k = last - parts + 1; k < last; ++k) {
-      chief_between = exact_flow(system, chief_between, times[k] - times[k - 1]);
-      deputy_between = exact_flow(system, deputy_between, times[k] - times[k - 1]);
+      const ClockTime from = scene.start_time + times[k - 1];
+      chief_between = exact_flow(system, chief_between, from, times[k] - times[k - 1]);
+      deputy_between = exact_flow(system, deputy_between, from, times[k] - times[k - 1]);
       add(times[k], chief_between, deputy_between);
     }
-    chief = exact_flow(system, chief, times[last] - times[last - parts]);
-    deputy = exact_flow(system, deputy, times[last] - times[last - parts]);
+    const ClockTime from = scene.start_time + times[last - parts];
+    chief = exact_flow(system, chief, from, times[last] - times[last - parts]);
+    deputy = exact_flow(system, deputy, from, times[last] - times[last - parts]);
     add(times[last], chief, deputy);
   }
   return trajectory;

@@ -13,11 +13,12 @@
 namespace hamjet {
 
 double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
-                      const std::vector<double>& deviation, double time) {
+                      const std::vector<double>& deviation, const ClockTime& start_time,
+                      double time) {
   const Eigen::Vector3d semi_axes = *scene.transfer->keep_out_m / metric_units(scene).length_m;
   ExtremeDistance least(ExtremeDistance::Kind::least);
   const std::vector<double> deputy = state_sum(chief, deviation);
-  fly_arcs(make_system(scene), {chief, deputy}, 0, time, [&](const FlightArc& arc) {
+  fly_arcs(make_system(scene), {chief, deputy}, start_time, time, [&](const FlightArc& arc) {
     ArcCurve curve = rtn_separation_along(arc, 0, 1);
     for (std::size_t i = 0; i < 3; ++i) curve[i] /= semi_axes[static_cast<Eigen::Index>(i)];
     least.add(arc, curve);
@@ -32,13 +33,14 @@ WayLimits::WayLimits(const Scene& scene)
       lowest_(ratio_) {}
 
 void WayLimits::fly(const std::vector<double>& chief, const std::vector<double>& deviation,
-                    double time) {
+                    const ClockTime& start_time, double time) {
   if (scene_.transfer->keep_out_m) {
-    ratio_ = std::min(ratio_, keep_out_ratio(scene_, chief, deviation, time));
+    ratio_ = std::min(ratio_, keep_out_ratio(scene_, chief, deviation, start_time, time));
   }
   if (surface_) {
     const std::vector<double> deputy = state_sum(chief, deviation);
-    lowest_ = std::min(lowest_, lowest_point(make_system(scene_), deputy, time).distance);
+    lowest_ =
+        std::min(lowest_, lowest_point(make_system(scene_), deputy, start_time, time).distance);
   }
 }
 

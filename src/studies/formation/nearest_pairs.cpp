@@ -52,7 +52,7 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
   const SharedSystem system = make_system(scene);
   double now = 0;
   for (const double arrival : arrivals) {
-    states = fly_arcs(system, std::move(states), now, arrival - now, look);
+    states = fly_arcs(system, std::move(states), scene.start_time + now, arrival - now, look, now);
     now = arrival;
     for (std::size_t i = 0; i < flown.size(); ++i) {
       if (flown[i]->transfer.time != arrival) continue;

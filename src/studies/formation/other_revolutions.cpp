@@ -34,9 +34,10 @@ double angle_between(const std::vector<double>& a, const std::vector<double>& b)
 
 /// The angle through which a state turns in a time, by flying; no step of a flight is half a
 /// revolution.
-double turned_angle(const SharedSystem& system, const std::vector<double>& state, double time) {
+double turned_angle(const SharedSystem& system, const std::vector<double>& state,
+                    const ClockTime& start_time, double time) {
   double angle = 0;
-  fly_arcs(system, {state}, 0, time, [&](const FlightArc& arc) {
+  fly_arcs(system, {state}, start_time, time, [&](const FlightArc& arc) {
     const std::vector<double> middle = arc.state(0, 0.5);
     angle += angle_between(arc.state(0, 0), middle) + angle_between(middle, arc.state(0, 1));
   });
@@ -58,9 +59,9 @@ std::vector<double> turned_angles(const LinearFlow& flow) {
 /// The transfers for one transfer time.
 class TransfersOfTime {
  public:
-  TransfersOfTime(const SharedSystem& system, const Route& route, const LinearFlow& flow,
+  TransfersOfTime(const ComputedProblem& problem, const Route& route, const LinearFlow& flow,
                   double time, double chief_angle)
-      : system_(system),
+      : problem_(problem),
         chief_(flow.nominal(0)),
         from_(route.start()),
         time_(time),
@@ -112,7 +113,9 @@ class TransfersOfTime {
           route.fly_from_guess(from_, time_, wanted_, std::move(guess), transfer.plan);
       // Newton's method may have arrived at a trajectory with another number of revolutions.
       const double wanted = own_ + transfer.difference + angle_ / turn;
-      const double found = turned_angle(system_, state_sum(chief_, route.begun()), time_) / turn;
+      const double found = turned_angle(problem_.system, state_sum(chief_, route.begun()),
+                                        problem_.start_time, time_) /
+                           turn;
       if (std::abs(found - wanted) > 0.5) {
         throw Error(ErrorKind::numerical,
                     fmt::format("from the ellipse of {:.2f} revolutions no way of as many was "
@@ -128,7 +131,7 @@ class TransfersOfTime {
     }
   }
 
-  const SharedSystem& system_;
+  const ComputedProblem& problem_;
   std::vector<double> chief_;  ///< chief's state at the start
   Underway from_;
   double time_;
@@ -157,7 +160,7 @@ OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& pr
       const std::size_t before = flow.checkpoint_before(time);
       const double chief_angle =
           angles[before] + angle_between(flow.nominal(flow.times()[before]), flow.nominal(time));
-      const TransfersOfTime transfers(problem.system, route, flow, time, chief_angle);
+      const TransfersOfTime transfers(problem, route, flow, time, chief_angle);
       for (const int difference : settings.revolutions) {
         transfers.add(route, difference, result.transfers);
       }

@@ -41,7 +41,8 @@ Underway Route::start() const { return {0, frame(0).deviation(scene_.transfer->s
 Underway Route::coast_to(double time) const {
   if (time == 0) return start();
   const std::vector<double> state = state_sum(problem_.nominal, start().deviation);
-  return {time, state_difference(exact_flow(problem_.system, state, time), flow_.nominal(time))};
+  return {time, state_difference(exact_flow(problem_.system, state, problem_.start_time, time),
+                                 flow_.nominal(time))};
 }
 
 Underway Route::linear_coast_to(double time) const {
@@ -111,8 +112,9 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
   const std::vector<double> chief = flow_.nominal(from.time);
   const std::vector<double> chief_then = flow_.nominal(time);
   const TwoPointFlight flight =
-      fly_between(problem_.system, std::move(guess), position_of(chief_then) + position_of(wanted),
-                  time - from.time, scene_.transfer->refined_miss_m / units_.length_m);
+      fly_between(problem_.system, std::move(guess), problem_.start_time + from.time,
+                  position_of(chief_then) + position_of(wanted), time - from.time,
+                  scene_.transfer->refined_miss_m / units_.length_m);
   if (!flight.is_found()) {
     throw Error(
         ErrorKind::numerical,
@@ -172,10 +174,11 @@ void Route::judge_limits(WaypointPlan& plan) const {
   }
   WayLimits limits(scene_);
   const double begun = plan.legs.front().start;
-  if (begun != 0) limits.fly(problem_.nominal, start().deviation, begun);
+  if (begun != 0) limits.fly(problem_.nominal, start().deviation, problem_.start_time, begun);
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const WaypointLeg& leg = plan.legs[k];
-    limits.fly(flow_.nominal(leg.start), ways_[k], leg.end - leg.start);
+    limits.fly(flow_.nominal(leg.start), ways_[k], problem_.start_time + leg.start,
+               leg.end - leg.start);
   }
   plan.forbidden = limits.forbidden();
 }

@@ -32,8 +32,9 @@ double rounding_of_flights(const Matrix<double>& linear, std::span<const double>
 }
 
 double rounding_of_flights(const ComputedProblem& problem, double time) {
-  FlowProblem<double> flow{problem.system, SeriesSpace::create(problem.nominal.size(), 1),
-                           problem.variables, problem.nominal, time};
+  FlowProblem<double> flow{problem.system,     SeriesSpace::create(problem.nominal.size(), 1),
+                           problem.variables,  problem.nominal,
+                           problem.start_time, time};
   flow.symmetry = FlowSymmetry::none;  // leaving out a symmetry saves nothing at order 1
   GaussSettings settings;
   settings.tolerance = 1e-10;  // the result serves as a scale, for which two digits would do
@@ -105,7 +106,9 @@ std::vector<double> SingleTransfer::deputy(const std::vector<double>& initial_mo
 }
 
 std::vector<double> SingleTransfer::fly(const std::vector<double>& initial_momentum) const {
-  return state_difference(exact_flow(problem_.system, deputy(initial_momentum), time_), chief_end_);
+  return state_difference(
+      exact_flow(problem_.system, deputy(initial_momentum), problem_.start_time, time_),
+      chief_end_);
 }
 
 double SingleTransfer::miss_m(const std::vector<double>& flown) const {

@@ -10,6 +10,7 @@
 
 #include "../../algebra/raise_to.hpp"
 #include "../../algebra/state_sums.hpp"
+#include "../../dynamics/autonomy.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
@@ -261,7 +262,8 @@ void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& poin
   const MetricUnits units = metric_units(scene_);
   const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
   point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
-  point.drift = relative_drift(scene_, chief, end, settings_.frame, finds_holding);
+  point.drift = relative_drift(scene_, chief, end, problem_.start_time + point.time,
+                               settings_.frame, finds_holding);
 }
 
 void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
@@ -278,24 +280,26 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
       ChiefFrame(problem_.nominal, metric_units(scene_), settings_.frame).deviation(start);
   if (surface) {
     const std::vector<double> deputy = state_sum(problem_.nominal, deviation);
-    point.lowest = lowest_point(problem_.system, deputy, point.time).distance;
+    point.lowest = lowest_point(problem_.system, deputy, problem_.start_time, point.time).distance;
     point.is_below_surface = *point.lowest < *surface;
   }
   // A trajectory through the centre need not be examined further.
   if (settings_.keep_out_m && point.lowest != 0.0) {
-    point.keep_out_ratio = keep_out_ratio(scene_, problem_.nominal, deviation, point.time);
+    point.keep_out_ratio =
+        keep_out_ratio(scene_, problem_.nominal, deviation, problem_.start_time, point.time);
   }
 }
 
 void TransferPoints::measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
                                       const std::vector<double>& w, TransferPoint& point) {
   const Stopwatch watch(seconds_.residual);
+  const SharedSystem then = frozen_at(problem_.system, problem_.start_time + point.time);
   HamiltonJacobiTerms terms =
-      hamilton_jacobi_terms<double>(*problem_.system, nominal_of(jet), *chosen.inversion, w);
+      hamilton_jacobi_terms<double>(*then, nominal_of(jet), *chosen.inversion, w);
   const double scaled = terms.scaled();
   point.hamilton_jacobi_residual = scaled;
   if (largest_residual_ && !(scaled > largest_residual_->scaled)) return;
-  largest_residual_ = {scaled, jet, chosen.inversion->kind, w, std::move(terms)};
+  largest_residual_ = {scaled, then, jet, chosen.inversion->kind, w, std::move(terms)};
 }
 
 std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
@@ -316,8 +320,9 @@ std::optional<double> TransferPoints::hamilton_jacobi_floor() const {
       const auto inversion = invert_partially<double>(jet, largest_residual_->kind,
                                                       std::numeric_limits<double>::epsilon(),
                                                       problem_.momentum_exponent);
-      HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(
-          *problem_.system, nominal_of(largest_residual_->jet), inversion, largest_residual_->w);
+      HamiltonJacobiTerms terms = hamilton_jacobi_terms<double>(*largest_residual_->system,
+                                                                nominal_of(largest_residual_->jet),
+                                                                inversion, largest_residual_->w);
       for (std::size_t i = 0; i < terms.residual.size(); ++i) {
         terms.residual[i] -= largest_residual_->terms.residual[i];
       }
@@ -344,7 +349,7 @@ double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {
 const std::vector<double>& TransferPoints::flown_chief(double time) {
   if (flown_chief_.empty() || time != chief_time_) {
     const Stopwatch watch(seconds_.proof);
-    flown_chief_ = exact_flow(problem_.system, problem_.nominal, time);
+    flown_chief_ = exact_flow(problem_.system, problem_.nominal, problem_.start_time, time);
     chief_time_ = time;
   }
   return flown_chief_;

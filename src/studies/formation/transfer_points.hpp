@@ -74,6 +74,7 @@ class TransferPoints {
   /// The answer with the largest Hamilton-Jacobi residual so far.
   struct LargestResidual {
     double scaled = 0;
+    SharedSystem system;  ///< as it is at the time of the jet
     FlowJet<double> jet;
     GeneratingFunctionKind kind;
     std::vector<double> w;  ///< variables of the kind

@@ -17,11 +17,11 @@ namespace {
 
 /// The flow's jet of order 1 from a state.
 FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
-                           double duration) {
+                           const ClockTime& start_time, double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> problem{system, SeriesSpace::create(start.size(), 1), variables, start,
-                                    duration};
+  const FlowProblem<double> problem{
+      system, SeriesSpace::create(start.size(), 1), variables, start, start_time, duration};
   GaussSettings settings;
   settings.tolerance = 1e-12;
   IntegrationStatistics statistics;
@@ -31,7 +31,8 @@ FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>
 }  // namespace
 
 TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess,
-                           const Eigen::Vector3d& position, double duration, double most_miss) {
+                           const ClockTime& start_time, const Eigen::Vector3d& position,
+                           double duration, double most_miss) {
   constexpr int most_flights = 20;
   constexpr double singular = 1e-10;
   TwoPointFlight flight;
@@ -40,11 +41,12 @@ TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess
     while (flight.flights < most_flights) {
       ++flight.flights;
       // The final state is flown to the precision of double.
-      flight.end = exact_flow(system, flight.start, duration);
+      flight.end = exact_flow(system, flight.start, start_time, duration);
       const Eigen::Vector3d missing = position - position_of(flight.end);
       flight.miss = missing.norm();
       if (flight.miss <= most_miss) return flight;
-      const Matrix<double> flow = linear_part(linear_jet(system, flight.start, duration));
+      const Matrix<double> flow =
+          linear_part(linear_jet(system, flight.start, start_time, duration));
       const Eigen::Matrix3d commanded = flow.topRightCorner(3, 3);
       const Eigen::JacobiSVD<Eigen::Matrix3d> solver(commanded,
                                                      Eigen::ComputeFullU | Eigen::ComputeFullV);

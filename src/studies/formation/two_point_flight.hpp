@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
@@ -24,9 +25,11 @@ struct TwoPointFlight {
 };
 
 /// Newton's method on flown trajectories, with the linear part of the flow about each. The velocity
-/// at the start of `guess` is changed until the flight ends within `most_miss` of the position.
-/// Steps are limited to half the speed. Failures, also of the integration, are recorded.
+/// at the start of `guess`, which stands at `start_time` of the system's clock, is changed until
+/// the flight ends within `most_miss` of the position. Steps are limited to half the speed.
+/// Failures, also of the integration, are recorded.
 TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess,
-                           const Eigen::Vector3d& position, double duration, double most_miss);
+                           const ClockTime& start_time, const Eigen::Vector3d& position,
+                           double duration, double most_miss);
 
 }  // namespace hamjet

@@ -24,6 +24,7 @@ void follow_nominal(
         });
     for (std::size_t i = 0; i < nominal.size(); ++i) flow.initial_state[i] = nominal[i][0];
     reached = Extended(times[k]);
+    flow.start_time = problem.start_time + reached;
     visit(k, flow.initial_state);
   }
 }

@@ -21,15 +21,18 @@ class NominalRecorder {
  public:
   NominalRecorder(const ComputedProblem& problem, std::size_t dimension,
                   bool finds_lowest_point = false)
-      : problem_(problem), dimension_(dimension), energy_(*problem.system, problem.nominal) {
+      : problem_(problem),
+        dimension_(dimension),
+        energy_(*problem.system, problem.nominal, problem.start_time) {
     if (finds_lowest_point) lowest_point_.emplace(problem);
     result_.initial = static_cast<double>(energy_.initial());
     record(0, extended(problem.nominal));
     result_.initial_terms = result_.largest_terms;
   }
 
+  /// The time is since the problem's start.
   void record(double time, const std::vector<Extended>& state) {
-    record_energy(state);
+    record_energy(time, state);
     NominalPoint point{time, std::vector<double>(dimension_, 0), last_energy_error_};
     std::vector<double> rounded;
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -51,9 +54,9 @@ class NominalRecorder {
   }
 
  private:
-  void record_energy(const std::vector<Extended>& state) {
+  void record_energy(double time, const std::vector<Extended>& state) {
     const Stopwatch stopwatch(result_.seconds);
-    const Extended change = energy_.value(state) - energy_.initial();
+    const Extended change = energy_.value(state, problem_.start_time + time) - energy_.initial();
     last_energy_error_ = energy_.relative(change);
     keep_largest(largest_, last_energy_error_);
     keep_largest(result_.largest_change, static_cast<double>(change));

@@ -30,9 +30,10 @@ std::optional<double> predicted_time(const EnergyConservationStudy& study,
   StepCondition<double> condition(system, study.method);
   try {
     // One flow leads to the stop; the secant method evaluates only its neighbourhood.
-    const std::vector<double> at_stop = exact_flow(system, study.nominal, stop.time);
+    const std::vector<double> at_stop =
+        exact_flow(system, study.nominal, ClockTime::epoch(), stop.time);
     const auto value = [&](double time) {
-      return condition(exact_flow(system, at_stop, time - stop.time));
+      return condition(exact_flow(system, at_stop, ClockTime(stop.time), time - stop.time));
     };
     double before = stop.time;
     double time = stop.time + *stop.steps_to_sign_change * last_step;
@@ -68,7 +69,7 @@ class EnergyConservingTrajectory {
       : result_(result),
         progress_(progress),
         condition_(system, result.study.method),
-        energy_(system, result.study.nominal) {
+        energy_(system, result.study.nominal, ClockTime::epoch()) {
     const EnergyConservationStudy& study = result.study;
     result.run = integrate_energy_conserving<double>(
         {system, study.method, study.nominal, study.first_step, study.duration},
@@ -77,7 +78,7 @@ class EnergyConservingTrajectory {
     last.step = result.run.steps;
     last.time = result.run.time;
     last.state = result.run.state;
-    last.energy_error = energy_.error(extended(last.state));
+    last.energy_error = energy_.error(extended(last.state), ClockTime(last.time));
     last.condition = condition_(last.state);
     raise_to(result.largest_energy_error, std::abs(last.energy_error));
     points_.add(std::move(last));
@@ -89,14 +90,15 @@ class EnergyConservingTrajectory {
     const EnergyConservationStudy& study = result_.study;
     if (progress_) progress_("energy-conserving trajectory", step.time / study.duration);
     const Extended discrete = energy_.value(
-        discrete_energy_point<Extended>(study.method, extended(step.start), extended(step.end)));
+        discrete_energy_point<Extended>(study.method, extended(step.start), extended(step.end)),
+        ClockTime(step.time));
     if (step.index == 0) conserved_ = discrete;
     EnergyConservationPoint point{step.index,
                                   step.time,
                                   step.size,
                                   step.start,
                                   energy_.relative(discrete - conserved_),
-                                  energy_.error(extended(step.start)),
+                                  energy_.error(extended(step.start), ClockTime(step.time)),
                                   step.condition,
                                   step.newton_iterations};
     const double size = std::abs(step.size);

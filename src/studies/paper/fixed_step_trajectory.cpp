@@ -22,15 +22,16 @@ FixedStepTrajectory fixed_step_trajectory(const DynamicalSystem& system,
   result.method = is_verlet ? "velocity Verlet" : "midpoint rule";
   result.step = step;
   const double duration = std::clamp(end, -most_steps * step, most_steps * step);
-  const FlowProblem<double> problem = trajectory_problem(system, start, duration);
-  EnergyError energy(system, start);
+  const FlowProblem<double> problem =
+      trajectory_problem(system, start, ClockTime::epoch(), duration);
+  EnergyError energy(system, start, ClockTime::epoch());
   ThinnedList<std::pair<double, double>> errors;
   errors.add({0, 0});
   std::vector<Extended> state(start.size());
   const StepObserver<double> observe = [&](const double& time, const FlowJet<double>& jet) {
     if (progress) progress("fixed-step trajectory", time / duration);
     for (std::size_t i = 0; i < state.size(); ++i) state[i] = jet[i][0];
-    const double error = energy.error(state);
+    const double error = energy.error(state, ClockTime(time));
     result.largest_energy_error = std::max(result.largest_energy_error, std::abs(error));
     ++result.steps;
     errors.add({time, error});

@@ -94,11 +94,8 @@ std::vector<Case> cases() {
 }
 
 SixNumbers<double> flown(const FlowBoxCase& orbit, const SixNumbers<double>& start) {
-  FlowProblem<double> problem{zonal_gravity(orbit.field),
-                              SeriesSpace::create(1, 0),
-                              {0},
-                              {start.begin(), start.end()},
-                              orbit.time};
+  FlowProblem<double> problem{zonal_gravity(orbit.field),   SeriesSpace::create(1, 0), {0},
+                              {start.begin(), start.end()}, ClockTime::epoch(),        orbit.time};
   IntegrationStatistics statistics;
   const auto jet = integrate_fehlberg78<double>(problem, {.tolerance = 1e-14}, statistics);
   SixNumbers<double> end;
@@ -108,11 +105,9 @@ SixNumbers<double> flown(const FlowBoxCase& orbit, const SixNumbers<double>& sta
 
 /// The largest derivative of the final positions, with velocities in units of the chief's.
 double growth(const FlowBoxCase& orbit) {
-  FlowProblem<double> problem{zonal_gravity(orbit.field),
-                              SeriesSpace::create(6, 1),
-                              {0, 1, 2, 3, 4, 5},
-                              {orbit.start.begin(), orbit.start.end()},
-                              orbit.time};
+  FlowProblem<double> problem{zonal_gravity(orbit.field), SeriesSpace::create(6, 1),
+                              {0, 1, 2, 3, 4, 5},         {orbit.start.begin(), orbit.start.end()},
+                              ClockTime::epoch(),         orbit.time};
   GaussSettings settings;
   settings.tolerance = 1e-8;
   IntegrationStatistics statistics;

@@ -37,7 +37,7 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
                                     const std::vector<double>& wanted,
                                     const std::function<void(double)>& progress) {
   const FlowProblem<double> flow = flow_problem<double>(problem, scene.duration);
-  EnergyError energy(*problem.system, problem.nominal);
+  EnergyError energy(*problem.system, problem.nominal, problem.start_time);
   std::vector<Checkpoint> reached;
   double largest = 0;
   IntegrationStatistics statistics;
@@ -46,7 +46,8 @@ std::vector<Checkpoint> checkpoints(const Scene& scene, const ComputedProblem& p
                       progress(time / scene.duration);
                       std::vector<Extended> state;
                       for (const auto& component : jet) state.emplace_back(component[0]);
-                      largest = std::max(largest, std::abs(energy.error(state)));
+                      largest = std::max(largest,
+                                         std::abs(energy.error(state, problem.start_time + time)));
                       while (reached.size() < wanted.size() &&
                              std::abs(time) >= std::abs(wanted[reached.size()]) * (1 - 1e-12)) {
                         reached.push_back({time, jet, largest});

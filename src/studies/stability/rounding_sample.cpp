@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "../../dynamics/autonomy.hpp"
 #include "../descriptions/method_description.hpp"
 #include "../integration.hpp"
 #include "../thinned_list.hpp"
@@ -112,8 +113,9 @@ bool meets(const VectorXd& end, const RunPoint& from, const RunPoint& to) {
 /// Jets of a system in all its components.
 class LocalJets {
  public:
-  explicit LocalJets(const SharedSystem& system)
+  LocalJets(const SharedSystem& system, const ClockTime& start_time)
       : system_(system),
+        start_time_(start_time),
         space_(SeriesSpace::create(system->dimension(), 2)),
         linear_space_(SeriesSpace::create(system->dimension(), 1)),
         variables_(system->dimension()) {
@@ -125,8 +127,9 @@ class LocalJets {
   std::optional<StepMap> step_map(const IntegratorSettings& settings, const RunPoint& from,
                                   const RunPoint& to, const ComputedProblem& problem) const {
     IntegrationStatistics statistics;
-    const auto jet = integrate<double>(problem_at(from.state, space_, to.time - from.time),
-                                       settings_of_step(settings, from, to), statistics, {});
+    const auto jet =
+        integrate<double>(problem_at(from.state, from.time, space_, to.time - from.time),
+                          settings_of_step(settings, from, to), statistics, {});
     StepMap map;
     VectorXd end(index(jet.size()));
     for (std::size_t i = 0; i < jet.size(); ++i) {
@@ -141,18 +144,20 @@ class LocalJets {
     return map;
   }
 
-  FieldValue field(const VectorXd& point) const {
-    const auto identity = starting_jet(problem_at(point, linear_space_, 0));
-    const auto jet = evaluate_on_series<double>(system_->vector_field, identity);
+  FieldValue field(const VectorXd& point, double time) const {
+    const auto identity = starting_jet(problem_at(point, time, linear_space_, 0));
+    const auto jet =
+        evaluate_on_series<double>(frozen_at(system_->vector_field, start_time_ + time), identity);
     FieldValue value{VectorXd(index(jet.size())), linear_part(jet)};
     for (std::size_t i = 0; i < jet.size(); ++i) value.slope(index(i)) = jet[i][0];
     return value;
   }
 
  private:
-  FlowProblem<double> problem_at(const VectorXd& point, const SpacePointer& space,
+  /// The times are since the run's start.
+  FlowProblem<double> problem_at(const VectorXd& point, double time, const SpacePointer& space,
                                  double duration) const {
-    FlowProblem<double> problem{system_, space, variables_, {}, duration};
+    FlowProblem<double> problem{system_, space, variables_, {}, start_time_ + time, duration};
     problem.initial_state.assign(point.begin(), point.end());
     return problem;
   }
@@ -175,6 +180,7 @@ class LocalJets {
   }
 
   SharedSystem system_;
+  ClockTime start_time_;
   SpacePointer space_;
   SpacePointer linear_space_;
   std::vector<std::size_t> variables_;
@@ -259,7 +265,7 @@ void RoundingSample::follow_as(const Scene& scene, const ComputedProblem& proble
         rounding_of(points.front().matrix, unit));
   }
 
-  const LocalJets jets(problem.system);
+  const LocalJets jets(problem.system, problem.start_time);
   const MatrixXd identity = MatrixXd::Identity(components, components);
   for (std::size_t step = 0; step + 1 < points.size(); ++step) {
     const RunPoint& from = points[step];
@@ -271,7 +277,7 @@ void RoundingSample::follow_as(const Scene& scene, const ComputedProblem& proble
                   "what rounding does to steps as long as these is known only if the scene expands "
                   "in all variables");
     }
-    const FieldValue field = jets.field(from.state);
+    const FieldValue field = jets.field(from.state, from.time);
     const MatrixXd moved = (map->linear - identity).cwiseAbs();
     const MatrixXd& matrix = from.matrix;
     // The roundings of a group's steps are independent, so that their squares add up.
@@ -290,7 +296,7 @@ void RoundingSample::follow_as(const Scene& scene, const ComputedProblem& proble
     if (progress) progress(to.time / scene.duration);
   }
 
-  const FieldValue end = jets.field(points.back().state);
+  const FieldValue end = jets.field(points.back().state, points.back().time);
   const VectorXd late = rounding_of(std::abs(scene.duration) * end.slope.cwiseAbs(), unit);
   const MatrixXd late_matrix = rounding_of(
       std::abs(scene.duration) * (end.gradient * points.back().matrix).cwiseAbs(), unit);

@@ -117,6 +117,7 @@ void add_round_trip_error(const StabilityExpectation& expected, const Propagatio
   if (!expected.round_trip) return;
   Scene back = result.scene;
   back.nominal = result.runs.front().nominal_final;
+  back.start_time = result.scene.start_time + result.scene.duration;
   back.duration = -back.duration;
   const PropagationResult returned = propagate_well(back, progress);
   RoundingSample sample;

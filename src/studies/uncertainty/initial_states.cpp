@@ -35,8 +35,7 @@ InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
 }
 
 EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius) {
-  EncounterProblem problem;
-  problem.system = make_system(scene);
+  EncounterProblem problem{make_system(scene), {}, scene.start_time};
   problem.from = from;
   problem.to = to;
   problem.radius = radius;

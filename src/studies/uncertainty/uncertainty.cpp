@@ -38,7 +38,7 @@ class Flights {
  public:
   Flights(const SharedSystem& system, const Scene& scene, const InitialState& start, int samples,
           StandardNormals& normals)
-      : flow_(system), samples_(static_cast<std::size_t>(samples)) {
+      : flow_(system), start_time_(scene.start_time), samples_(static_cast<std::size_t>(samples)) {
     const Matrix<double>& factor = start.covariance.factor();
     states_.reserve(6 * (samples_ + 1));
     states_.assign(scene.nominal.begin(), scene.nominal.end());
@@ -58,7 +58,8 @@ class Flights {
     for (std::size_t k = 0; k <= samples_; k += at_once) {
       if (progress) progress("flights", static_cast<double>(k) / static_cast<double>(samples_ + 1));
       const std::size_t count = std::min(at_once, samples_ + 1 - k);
-      flow_.advance(std::span(states_).subspan(6 * k, 6 * count), std::span(times).first(count));
+      flow_.advance(std::span(states_).subspan(6 * k, 6 * count), start_time_ + time_,
+                    std::span(times).first(count));
     }
     time_ = time;
   }
@@ -73,9 +74,10 @@ class Flights {
 
  private:
   TaylorFlow flow_;
+  ClockTime start_time_;
   std::size_t samples_;
   std::vector<double> states_;
-  double time_ = 0;
+  double time_ = 0;  ///< since the start
 };
 
 /// The same polynomials in standard normal variables that are turned so that the first is the one

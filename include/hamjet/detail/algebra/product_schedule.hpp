@@ -20,6 +20,10 @@ namespace hamjet {
 ///
 /// Each unordered pair of different blocks {x, y} is listed once and serves both a_x b_y and a_y
 /// b_x; a block that is multiplied with itself stands in `diagonal`.
+///
+/// The schedule of a product whose factors have no slices below given degrees is *directed*: a pair
+/// serves one product alone. For each m_x those for a_x b_y come first, then those for b_x a_y, and
+/// each of the two runs has its own end.
 struct ProductSchedule {
   /// Offsets of two different blocks, the one of smaller block degree first.
   struct Pair {
@@ -31,9 +35,10 @@ struct ProductSchedule {
     std::uint32_t offset;        ///< offset of the block in the result
     std::uint32_t block_degree;  ///< degree m of the block in the last three variables
     std::uint32_t first_pair;    ///< index of its first pair in `pairs`
-    std::uint32_t first_run;     ///< index in `run_ends`, which has one entry for each m_x = 0..m/2
-    std::uint32_t diagonal;  ///< offset of the block of degree m/2 that is multiplied with itself,
-                             ///< or no_diagonal
+    std::uint32_t first_run;  ///< index in `run_ends`, which has one entry for each m_x = 0..m/2,
+                              ///< or two in a directed schedule
+    std::uint32_t diagonal;   ///< offset of the block of degree m/2 that is multiplied with itself,
+                              ///< or no_diagonal
   };
 
   std::vector<Output> outputs;  ///< outputs of equal block degree stand together

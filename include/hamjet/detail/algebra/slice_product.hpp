@@ -131,8 +131,9 @@ constexpr std::size_t end_of_sums(std::size_t first, std::size_t block_size) {
   return std::min(first + (block_size + parts - 1) / parts, block_size);
 }
 
-/// Which slice is formed: c = a b, c = a^2 (where b is a), or c += a b.
-enum class SliceForm { product, square, added_product };
+/// Which slice is formed: c = a b, c = a^2 (where b is a), c += a b, or c = a b by a directed
+/// schedule.
+enum class SliceForm { product, square, added_product, directed_product };
 
 template <SliceForm Form, class Vector>
 void put_sum(const Vector& sum, Vector& target) {
@@ -155,16 +156,28 @@ void form_block(const ProductSchedule::Output& output, const ProductSchedule::Pa
     std::size_t pair = output.first_pair;
     [&]<std::size_t... MX>(std::index_sequence<MX...>) __attribute__((always_inline)) {
       (
-          [&]<std::size_t Mx>(std::integral_constant<std::size_t, Mx>)
-              __attribute__((always_inline)) {
-                for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
-                  const auto [x, y] = pairs[pair];
-                  multiply_blocks<Mx, M - Mx, First, last>(sums, a + x, b + y, part);
-                  if constexpr (Form != SliceForm::square) {
-                    multiply_blocks<Mx, M - Mx, First, last>(sums, b + x, a + y, part);
-                  }
+          [&]<std::size_t Mx>(
+              std::integral_constant<std::size_t, Mx>) __attribute__((always_inline)) {
+            if constexpr (Form == SliceForm::directed_product) {
+              const std::uint32_t* const ends = run_ends + output.first_run + 2 * Mx;
+              for (; pair < ends[0]; ++pair) {
+                const auto [x, y] = pairs[pair];
+                multiply_blocks<Mx, M - Mx, First, last>(sums, a + x, b + y, part);
+              }
+              for (; pair < ends[1]; ++pair) {
+                const auto [x, y] = pairs[pair];
+                multiply_blocks<Mx, M - Mx, First, last>(sums, b + x, a + y, part);
+              }
+            } else {
+              for (const std::size_t end = run_ends[output.first_run + Mx]; pair < end; ++pair) {
+                const auto [x, y] = pairs[pair];
+                multiply_blocks<Mx, M - Mx, First, last>(sums, a + x, b + y, part);
+                if constexpr (Form != SliceForm::square) {
+                  multiply_blocks<Mx, M - Mx, First, last>(sums, b + x, a + y, part);
                 }
-              }(std::integral_constant<std::size_t, MX>{}),
+              }
+            }
+          }(std::integral_constant<std::size_t, MX>{}),
           ...);
     }
     (std::make_index_sequence<M / 2 + 1>{});
@@ -197,6 +210,16 @@ void form_large_block(const ProductSchedule::Output& output, const ProductSchedu
     std::fill(sums.begin(), sums.end(), Vector{});
     std::size_t pair = output.first_pair;
     for (std::size_t m_x = 0; 2 * m_x <= m; ++m_x) {
+      if constexpr (Form == SliceForm::directed_product) {
+        const std::uint32_t* const ends = run_ends + output.first_run + 2 * m_x;
+        for (; pair < ends[0]; ++pair) {
+          multiply_blocks(sums.data(), a + pairs[pair].x, b + pairs[pair].y, m_x, m - m_x, part);
+        }
+        for (; pair < ends[1]; ++pair) {
+          multiply_blocks(sums.data(), b + pairs[pair].x, a + pairs[pair].y, m_x, m - m_x, part);
+        }
+        continue;
+      }
       for (const std::size_t end = run_ends[output.first_run + m_x]; pair < end; ++pair) {
         const auto [x, y] = pairs[pair];
         multiply_blocks(sums.data(), a + x, b + y, m_x, m - m_x, part);
@@ -279,7 +302,8 @@ using DoublePack = Pack<double, Lanes>;
 // slower wherever the linker chose it.
 #define HAMJET_BLOCKS_OF(Prefix, T)                                       \
   Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::product>; \
-  Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::square>;
+  Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::square>;  \
+  Prefix template FormBlocks<T> form_unrolled_blocks<SliceForm::directed_product>;
 #define HAMJET_COMPILED_BLOCKS(Prefix)                \
   HAMJET_BLOCKS_OF(Prefix, double)                    \
   HAMJET_BLOCKS_OF(Prefix, DoublePack<1>)             \
@@ -344,6 +368,28 @@ void interior_square(const SeriesSpace& space, int d, const T* a, T* c) {
     return detail::form_uncoupled(space.variables(), d, a, a, c);
   }
   detail::form_slice<detail::SliceForm::square>(space.products(d), a, a, c);
+}
+
+/// c_d = sum of a_i b_(d-i) over the slices of a schedule of SeriesSpace::products_above, whose
+/// lowest degrees must be given for uncoupled variables.
+template <class T>
+void product_above(const SeriesSpace& space, const ProductSchedule& schedule, int d, int lowest_a,
+                   int lowest_b, const T* a, const T* b, T* c) {
+  if (space.is_uncoupled()) {
+    const std::size_t v = space.variables();
+    const auto power = [v](int i, std::size_t k) {
+      return 1 + static_cast<std::size_t>(i - 1) * v + k;
+    };
+    for (std::size_t k = 0; k < v; ++k) {
+      T sum = a[power(lowest_a, k)] * b[power(d - lowest_a, k)];
+      for (int i = lowest_a + 1; i <= d - lowest_b; ++i) sum += a[power(i, k)] * b[power(d - i, k)];
+      c[power(d, k)] = sum;
+    }
+  } else if (a == b) {
+    detail::form_slice<detail::SliceForm::square>(schedule, a, a, c);
+  } else {
+    detail::form_slice<detail::SliceForm::directed_product>(schedule, a, b, c);
+  }
 }
 
 /// c_d += sum over 1 <= i <= d-1 of a_i b_(d-i), where a holds packs and b numbers.

@@ -20,18 +20,24 @@ class DifferentiableFunction {
   /// Throws Error(usage) for a list of no inputs or more than 64.
   explicit DifferentiableFunction(OperationList list)
       : list_(std::make_unique<OperationList>(std::move(list))),
-        evaluator_(*list_, SeriesSpace::create(list_->inputs(), 0), 0) {}
+        evaluator_(*list_, SeriesSpace::create(list_->variables(), 0), 0) {}
 
-  std::size_t inputs() const noexcept { return list_->inputs(); }
+  /// The number of inputs without the time.
+  std::size_t inputs() const noexcept { return list_->variables(); }
+  bool has_time() const noexcept { return list_->has_time(); }
   std::size_t outputs() const noexcept { return list_->outputs().size(); }
 
-  /// Evaluates value and Jacobian; throws Error(usage) for another number of inputs.
+  /// Evaluates value and Jacobian, by the inputs without the time; throws Error(usage) for another
+  /// number of inputs, and without a time for a function that depends on it.
   void evaluate(std::span<const Real> point) {
-    if (point.size() != inputs()) {
-      throw Error(ErrorKind::usage, "recorded function: wrong number of inputs");
-    }
-    for (std::size_t i = 0; i < inputs(); ++i) *evaluator_.input(i) = point[i];
-    evaluator_.evaluate_constant_terms();
+    if (has_time())
+      throw Error(ErrorKind::usage,
+                  "recorded function: it depends on the time, which is not given");
+    evaluate_at_inputs(point);
+  }
+  void evaluate(std::span<const Real> point, const Real& time) {
+    evaluator_.set_time(time);
+    evaluate_at_inputs(point);
   }
 
   /// The value of an output at the point last evaluated.
@@ -65,6 +71,14 @@ class DifferentiableFunction {
   }
 
  private:
+  void evaluate_at_inputs(std::span<const Real> point) {
+    if (point.size() != inputs()) {
+      throw Error(ErrorKind::usage, "recorded function: wrong number of inputs");
+    }
+    for (std::size_t i = 0; i < inputs(); ++i) *evaluator_.input(i) = point[i];
+    evaluator_.evaluate_constant_terms();
+  }
+
   std::unique_ptr<OperationList> list_;  ///< the evaluator points to it
   SliceEvaluator<Real, Real> evaluator_;
 };

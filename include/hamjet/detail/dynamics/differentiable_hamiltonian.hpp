@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "hamjet/detail/algebra/matrix.hpp"
@@ -33,8 +34,8 @@ class DifferentiableHamiltonian {
   virtual const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) = 0;
 };
 
-/// The Hamiltonian of a system. Its gradient is derived from the recorded list, and its Hessian is
-/// the Jacobian of the gradient.
+/// The Hamiltonian of a system; that of a system with time at one time, which must be set. Its
+/// gradient is derived from the recorded list, and its Hessian is the Jacobian of the gradient.
 template <class Real>
 class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
  public:
@@ -43,25 +44,36 @@ class RecordedHamiltonian final : public DifferentiableHamiltonian<Real> {
 
   Eigen::Index dimension() const override { return static_cast<Eigen::Index>(value_.inputs()); }
 
+  /// Sets the time of the system's clock for the evaluations that follow.
+  void set_time(const Real& time) { time_ = time; }
+
   Real value(const Vector<Real>& z) override {
-    value_.evaluate(numbers(z));
+    evaluate(value_, z);
     return value_.value(0);
   }
 
   const HamiltonianDerivatives<Real>& derivatives(const Vector<Real>& z) override {
-    slope_.evaluate(numbers(z));
+    evaluate(slope_, z);
     derivatives_.gradient = slope_.values();
     derivatives_.hessian = slope_.jacobian();
     return derivatives_;
   }
 
  private:
+  void evaluate(DifferentiableFunction<Real>& function, const Vector<Real>& z) const {
+    if (time_) {
+      function.evaluate(numbers(z), *time_);
+    } else {
+      function.evaluate(numbers(z));
+    }
+  }
   static std::span<const Real> numbers(const Vector<Real>& z) {
     return {z.data(), static_cast<std::size_t>(z.size())};
   }
 
   DifferentiableFunction<Real> value_;
   DifferentiableFunction<Real> slope_;
+  std::optional<Real> time_;
   HamiltonianDerivatives<Real> derivatives_;
 };
 

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
 #include "hamjet/detail/dynamics/common_powers.hpp"
+#include "hamjet/detail/dynamics/field_values.hpp"
 #include "hamjet/detail/dynamics/operation_list.hpp"
 #include "hamjet/detail/dynamics/series_work.hpp"
 #include "hamjet/detail/dynamics/slice_propagation.hpp"
@@ -25,24 +31,53 @@ namespace hamjet {
 /// all r_d. The caller then solves for x_d, writes x_d into the inputs and calls complete(d), which
 /// adds the linear part and forms the intermediate values (SlicePropagation). T is a real number,
 /// or a Pack whose lanes are the stages of an implicit method.
+///
+/// In a list that has the time, set_time comes before every evaluation at other times; until then
+/// all that depends on the time is NaN.
 template <class T, class Real>
 class SliceEvaluator {
  public:
   /// `working_order` is the highest degree that will be evaluated, and at most the space's order.
   /// The list must outlive the evaluator.
   SliceEvaluator(const OperationList& list, SpacePointer space, int working_order)
-      : list_(&list),
+      : expanded_(list.has_fields()
+                      ? std::make_shared<const OperationList>(expand_fields(list, working_order))
+                      : nullptr),
+        list_(expanded_ ? expanded_.get() : &list),
         space_(std::move(space)),
-        powers_(list),
-        propagation_(list, working_order),
+        powers_(*list_),
+        propagation_(*list_, working_order),
+        fields_(*list_, working_order),
         working_order_(working_order) {
-    const std::size_t values = list.operations().size();
+    const std::size_t values = list_->operations().size();
     stride_ = space_->first(working_order + 1);
     slices_.assign(values * stride_, T(Real(0)));
     remainders_.assign(working_order >= 2 ? list.outputs().size() * stride_ : 0, T(Real(0)));
     scratch_.assign(stride_, T(Real(0)));
-    for (const Operation& o : list.operations()) constants_.push_back(convert<Real>(o.constant));
+    for (const Operation& o : list_->operations()) constants_.push_back(convert<Real>(o.constant));
+    set_schedules();
+    if (list.has_time()) {
+      set_time(T(Real(std::numeric_limits<double>::quiet_NaN())));
+    } else {
+      evaluate_numbers();
+    }
   }
+
+  /// Whether the list has the time.
+  bool has_time() const { return list_->has_time(); }
+  /// Sets the time, and evaluates what depends on it alone. It does nothing for a list that has no
+  /// time. Throws what the functions of the time throw.
+  void set_time(const T& time) {
+    if (!list_->has_time()) return;
+    *value(list_->variables()) = time;
+    evaluate_numbers();
+  }
+  /// The number of values that depend on the time alone, or on nothing, with the time itself; the
+  /// same for all evaluators of a list.
+  std::size_t numbers() const { return list_->first_series_value() - list_->variables(); }
+  /// One of these values, which set_time sets; the caller may overwrite it by that of another
+  /// evaluator of the same list.
+  T& number(std::size_t i) { return *value(list_->variables() + i); }
 
   /// The coefficients of the i-th input, which the caller writes; inputs stand first in the list.
   T* input(std::size_t i) { return value(i); }
@@ -50,10 +85,10 @@ class SliceEvaluator {
   /// The coefficients of the i-th output.
   const T* output(std::size_t i) const { return value(list_->outputs()[i]); }
   /// The coefficients of the i-th output, which the caller may overwrite; null where the output is
-  /// one of the inputs.
+  /// one of the inputs or a number.
   T* mutable_output(std::size_t i) {
     const std::size_t place = list_->outputs()[i];
-    return place < list_->inputs() ? nullptr : value(place);
+    return place < list_->first_series_value() ? nullptr : value(place);
   }
   /// The derivative d output_i / d input_j at the inputs' constant terms.
   const T& output_gradient(std::size_t i, std::size_t j) const {
@@ -63,14 +98,14 @@ class SliceEvaluator {
   /// Evaluates the constant terms and the gradients of the outputs.
   void evaluate_constant_terms() {
     evaluate_constant_values();
-    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
       set_linear_part(i, list_->operations()[i]);
     }
     propagation_.set_gradients();
   }
   /// Evaluates the constant terms of all values, without gradients.
   void evaluate_constant_values() {
-    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
       evaluate_constant_term(i, list_->operations()[i]);
     }
   }
@@ -81,7 +116,7 @@ class SliceEvaluator {
     if (d < 2) return;  // at degree 1 everything is linear in the inputs
     if (d == 2) propagation_.set_weights();
     form_sums(d);
-    propagation_.form_remainders(slices_.data(), stride_, space_->first(d), space_->first(d + 1),
+    propagation_.form_remainders(d, slices_.data(), stride_, space_->first(d), space_->first(d + 1),
                                  remainders_.data());
   }
 
@@ -124,6 +159,37 @@ class SliceEvaluator {
  private:
   T* value(std::size_t i) { return slices_.data() + i * stride_; }
   const T* value(std::size_t i) const { return slices_.data() + i * stride_; }
+
+  /// Evaluates the numbers that are no inputs.
+  void evaluate_numbers() {
+    for (auto& [function, values] : time_values_) values.clear();
+    for (std::size_t i = list_->inputs(); i < list_->first_series_value(); ++i) {
+      evaluate_constant_term(i, list_->operations()[i]);
+    }
+  }
+
+  /// A component of a function of the time; a function is asked once for all its components.
+  T time_value(const Operation& o) {
+    using Lanes = TimeLanes<T, Real>;
+    using Number = typename Lanes::Number;
+    constexpr std::size_t lanes = Lanes::count();
+    std::vector<T>& values = time_values_[{o.time_function.get(), o.u}];
+    if (values.empty()) {
+      std::array<Number, lanes> times;
+      Lanes::put(*value(o.u), times.data());
+      const std::size_t components = o.time_function->components();
+      std::vector<Number> at_lane(components);
+      std::vector<Number> all(components * lanes, std::numeric_limits<Number>::quiet_NaN());
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        // Without a time there is nothing to ask for.
+        if (!(times[lane] == times[lane])) continue;
+        o.time_function->expand(times[lane], 0, at_lane.data());
+        for (std::size_t c = 0; c < components; ++c) all[c * lanes + lane] = at_lane[c];
+      }
+      for (std::size_t c = 0; c < components; ++c) values.push_back(Lanes::take(&all[c * lanes]));
+    }
+    return values[o.component];
+  }
 
   void evaluate_constant_term(std::size_t i, const Operation& o) {
     using std::atan2;
@@ -182,6 +248,14 @@ class SliceEvaluator {
       case OperationCode::angle:
         w = T(atan2(u, v));
         break;
+      case OperationCode::time_function:
+        w = time_value(o);
+        break;
+      case OperationCode::field:
+        w = fields_.evaluate(i, [this](std::size_t k) -> const T& { return *value(k); });
+        break;
+      case OperationCode::deviation_product:
+        break;  // its constant term is 0
     }
   }
 
@@ -193,6 +267,13 @@ class SliceEvaluator {
     switch (o.code) {
       case OperationCode::input:
       case OperationCode::linear:
+      case OperationCode::time_function:
+      case OperationCode::deviation_product:
+        break;
+      case OperationCode::field:
+        fields_.evaluate_terms(
+            i, std::max(working_order_, 1), [this](std::size_t k) -> const T& { return *value(k); },
+            [&](std::size_t term, const T& factor) { propagation_.factor(i, term) = factor; });
         break;
       case OperationCode::product:
         propagation_.factor(i, 0) = *value(o.v);
@@ -237,7 +318,7 @@ class SliceEvaluator {
   }
 
   void form_sums(int d) {
-    for (std::size_t i = list_->inputs(); i < list_->operations().size(); ++i) {
+    for (std::size_t i = list_->first_series_value(); i < list_->operations().size(); ++i) {
       form_sums(i, list_->operations()[i], d);
     }
   }
@@ -250,8 +331,14 @@ class SliceEvaluator {
     switch (o.code) {
       case OperationCode::input:
       case OperationCode::linear:
+      case OperationCode::time_function:
+      case OperationCode::field:
+        break;
+      case OperationCode::deviation_product:
+        form_deviation_product(i, o, d);
         break;
       case OperationCode::product:
+        if (!list_->has_sums(i)) break;
         interior_product(space, d, u, value(o.v), w);
         count_product(d);
         break;
@@ -299,6 +386,28 @@ class SliceEvaluator {
     }
   }
 
+  /// The schedules of the products of deviations, by value and degree.
+  void set_schedules() {
+    schedules_.resize(list_->operations().size());
+    for (std::size_t i = 0; i < schedules_.size(); ++i) {
+      const Operation& o = list_->operations()[i];
+      if (o.code != OperationCode::deviation_product) continue;
+      for (int d = o.lowest[0] + o.lowest[1]; d <= working_order_; ++d) {
+        schedules_[i].push_back(&space_->products_above(d, o.lowest[0], o.lowest[1], o.u == o.v));
+      }
+    }
+  }
+
+  void form_deviation_product(std::size_t i, const Operation& o, int d) {
+    const int lowest = o.lowest[0] + o.lowest[1];
+    if (d < lowest) return;
+    const ProductSchedule& schedule = *schedules_[i][static_cast<std::size_t>(d - lowest)];
+    product_above(*space_, schedule, d, o.lowest[0], o.lowest[1], value(o.u), value(o.v), value(i));
+    ++work_.slice_products;
+    work_.multiply_adds +=
+        static_cast<double>(o.u == o.v ? schedule.square_multiply_adds : schedule.multiply_adds);
+  }
+
   void count_product(int d) {
     ++work_.slice_products;
     work_.multiply_adds += static_cast<double>(space_->products(d).multiply_adds);
@@ -308,16 +417,20 @@ class SliceEvaluator {
     work_.multiply_adds += static_cast<double>(space_->products(d).square_multiply_adds);
   }
 
+  std::shared_ptr<const OperationList> expanded_;  ///< the list, if it has fields
   const OperationList* list_;
   SpacePointer space_;
   CommonPowers<T, Real> powers_;
   SlicePropagation<T, Real> propagation_;
+  FieldValues<T, Real> fields_;
   int working_order_;
   std::size_t stride_ = 0;
   std::vector<T> slices_;      ///< one series per value
   std::vector<T> remainders_;  ///< one series per output
   std::vector<T> scratch_;
   std::vector<Real> constants_;
+  std::vector<std::vector<const ProductSchedule*>> schedules_;  ///< of products of deviations
+  std::map<std::pair<const TimeFunction*, std::size_t>, std::vector<T>> time_values_;
   SeriesWork work_;
 };
 

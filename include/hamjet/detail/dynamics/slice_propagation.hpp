@@ -20,8 +20,8 @@ namespace hamjet {
 ///
 ///   v_d = scale s + sum over the operands u of factor u_d .
 ///
-/// The scales and factors depend on constant terms alone. An output follows from the sums below it
-/// and the inputs x alone,
+/// The scales and factors depend on constant terms alone, and operands that are numbers have no
+/// slices. An output follows from the sums below it and the inputs x alone,
 ///
 ///   y_d = sum weight s + grad y . x_d ,
 ///
@@ -34,22 +34,21 @@ class SlicePropagation {
   /// The list must outlive this object. Only what degrees up to `working_order` need is prepared.
   SlicePropagation(const OperationList& list, int working_order)
       : list_(&list), scales_(list.operations().size(), T(Real(1))) {
-    std::vector<bool> is_operand(scales_.size(), false);
     for (const Operation& o : list.operations()) {
       first_factor_.push_back(operands_.size());
-      for_each_operand(o, [&](std::size_t operand, const T& factor) {
+      for_each_factor(o, [&](std::size_t operand, const T& factor) {
         operands_.push_back(operand);
         factors_.push_back(factor);
-        is_operand[operand] = true;
       });
-      // The sums of each of a pair need the other's slices.
-      if (is_of_pair(o.code)) is_operand[o.v] = true;
+      // Numbers stand last.
+      std::size_t end = operands_.size();
+      while (end > first_factor_.back() && list.is_number(operands_[end - 1])) --end;
+      end_factor_.push_back(end);
     }
-    first_factor_.push_back(operands_.size());
-    gradients_.assign(scales_.size() * list.inputs(), T(Real(0)));
-    for (std::size_t j = 0; j < list.inputs(); ++j) gradient_of(j, j) = T(Real(1));
-    if (working_order >= 2) set_groups();
-    if (working_order >= 1) set_values(is_operand);
+    gradients_.assign(scales_.size() * list.variables(), T(Real(0)));
+    for (std::size_t j = 0; j < list.variables(); ++j) gradient_of(j, j) = T(Real(1));
+    if (working_order >= 2) set_groups(working_order);
+    if (working_order >= 1) set_values();
   }
 
   /// The derivative of a value with respect to one of its operands. The caller writes it for all
@@ -72,22 +71,22 @@ class SlicePropagation {
 
   /// Forms the gradients of all values, from the factors.
   void set_gradients() {
-    const std::size_t inputs = list_->inputs();
-    for (std::size_t i = inputs; i < scales_.size(); ++i) {
+    const std::size_t variables = list_->variables();
+    for (std::size_t i = list_->first_series_value(); i < scales_.size(); ++i) {
       const std::uint64_t mask = list_->dependencies(i);
-      for (std::size_t j = 0; j < inputs; ++j) {
+      for (std::size_t j = 0; j < variables; ++j) {
         if ((mask >> j & 1) == 0) continue;
         T sum(Real(0));
-        for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+        for (std::size_t f = first_factor_[i]; f < end_factor_[i]; ++f) {
           sum = add_product(sum, factors_[f], gradient_of(operands_[f], j));
         }
         gradient_of(i, j) = sum;
       }
     }
   }
-  /// The derivative d output / d input at the inputs' constant terms.
+  /// The derivative d output / d input at the inputs' constant terms, by a variable.
   const T& gradient(std::size_t output, std::size_t input) const {
-    return gradients_[list_->outputs()[output] * list_->inputs() + input];
+    return gradients_[list_->outputs()[output] * list_->variables() + input];
   }
 
   /// Forms the weights from the factors and scales.
@@ -97,18 +96,20 @@ class SlicePropagation {
     }
   }
 
-  /// Forms the remainders of the outputs that have one from the sums, for the monomials from
-  /// `first` to `last`. Value i stands at slices + i stride, and the remainder of output o at
+  /// Forms the remainders of degree d of the outputs that have one from the sums, for the monomials
+  /// from `first` to `last`. Value i stands at slices + i stride, and the remainder of output o at
   /// remainders + o stride.
-  void form_remainders(const T* slices, std::size_t stride, std::size_t first, std::size_t last,
-                       T* remainders) const {
+  void form_remainders(int d, const T* slices, std::size_t stride, std::size_t first,
+                       std::size_t last, T* remainders) const {
     in_tiles(first, last, [&]<std::size_t Monomials>(Width<Monomials>, std::size_t k) {
       for (const Group& group : groups_) {
         with_width(group, [&]<std::size_t Outputs>(Width<Outputs>) {
           std::array<std::array<T, Monomials>, Outputs> sums{};
           const T* weight = weights_.data() + group.first_weight;
-          for (const std::size_t i : group.sums) {
-            const T* const s = slices + i * stride + k;
+          const std::size_t* const end =
+              group.sums.data() + group.counts[static_cast<std::size_t>(d)];
+          for (const std::size_t* i = group.sums.data(); i != end; ++i) {
+            const T* const s = slices + *i * stride + k;
             for (std::size_t t = 0; t < Monomials; ++t) {
               for (std::size_t w = 0; w < Outputs; ++w) sums[w][t] += weight[w] * s[t];
             }
@@ -128,8 +129,7 @@ class SlicePropagation {
                        bool has_sums) const {
     complete(values_, slices, stride, first, last, has_sums);
   }
-  /// As complete_values, but leaves out the values that are outputs and no operand of another
-  /// operation.
+  /// As complete_values, for the values alone that sums of higher degrees need.
   void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                               bool has_sums) const {
     complete(intermediates_, slices, stride, first, last, has_sums);
@@ -148,7 +148,7 @@ class SlicePropagation {
           const T* const remainder = remainders + o * stride + k;
           for (std::size_t t = 0; t < Monomials; ++t) sums[t] = remainder[t];
         }
-        for (std::size_t j = 0; j < list_->inputs(); ++j) {
+        for (std::size_t j = 0; j < list_->variables(); ++j) {
           if ((list_->dependencies(output) >> j & 1) == 0) continue;
           add(gradient(o, j), slices + j * stride + k, sums);
         }
@@ -165,7 +165,11 @@ class SlicePropagation {
     std::vector<std::size_t> outputs;
     /// Values on which these outputs depend, without the inputs, the later ones first.
     std::vector<std::size_t> values;
-    std::vector<std::size_t> sums;  ///< the nonlinear operations among these values
+    /// The operations with sums among these values: those that begin at low degrees first, and
+    /// otherwise the later ones.
+    std::vector<std::size_t> sums;
+    std::vector<std::size_t> counts;  ///< by degree, how many of the sums it has
+    std::vector<std::size_t> places;  ///< by value of the group, its place in `sums`
     std::size_t first_weight =
         0;  ///< index of the first weight; there is one for each sum and output
   };
@@ -216,10 +220,10 @@ class SlicePropagation {
       for (const std::size_t i : which) {
         T* const w = slices + i * stride + k;
         std::array<T, Monomials> sums{};
-        if (has_sums && is_nonlinear(i)) {
+        if (has_sums && list_->has_sums(i)) {
           for (std::size_t t = 0; t < Monomials; ++t) sums[t] = scales_[i] * w[t];
         }
-        for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+        for (std::size_t f = first_factor_[i]; f < end_factor_[i]; ++f) {
           add(factors_[f], slices + operands_[f] * stride + k, sums);
         }
         put(sums, w);
@@ -233,63 +237,73 @@ class SlicePropagation {
       std::fill_n(&adjoints_[i * Outputs], Outputs, T(Real(0)));
     };
     for (const std::size_t i : group.values) set_zeros(i);
-    for (std::size_t j = 0; j < list_->inputs(); ++j) set_zeros(j);
+    for (std::size_t j = 0; j < list_->variables(); ++j) set_zeros(j);
     for (std::size_t w = 0; w < Outputs; ++w) {
       adjoints_[list_->outputs()[group.outputs[w]] * Outputs + w] = T(Real(1));
     }
-    T* weight = weights_.data() + group.first_weight;
+    T* const weights = weights_.data() + group.first_weight;
+    const std::size_t* place = group.places.data();
     for (const std::size_t i : group.values) {
       const T* const adjoint = &adjoints_[i * Outputs];
-      for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+      for (std::size_t f = first_factor_[i]; f < end_factor_[i]; ++f) {
         T* const sums = &adjoints_[operands_[f] * Outputs];
         for (std::size_t w = 0; w < Outputs; ++w) {
           sums[w] = add_product(sums[w], adjoint[w], factors_[f]);
         }
       }
-      if (!is_nonlinear(i)) continue;
-      for (std::size_t w = 0; w < Outputs; ++w) *weight++ = adjoint[w] * scales_[i];
+      if (!list_->has_sums(i)) continue;
+      T* const weight = weights + *place++ * Outputs;
+      for (std::size_t w = 0; w < Outputs; ++w) weight[w] = adjoint[w] * scales_[i];
     }
   }
 
-  bool is_nonlinear(std::size_t i) const {
-    return list_->operations()[i].code != OperationCode::linear;
-  }
-
   template <class Take>
-  static void for_each_operand(const Operation& o, const Take& take) {
+  static void for_each_factor(const Operation& o, const Take& take) {
     switch (o.code) {
       case OperationCode::input:
+      case OperationCode::deviation_product:
         return;
       case OperationCode::linear:
+      case OperationCode::field:
         for (const LinearTerm& term : o.terms) take(term.value, T(convert<Real>(term.coefficient)));
         return;
-      case OperationCode::product:
-      case OperationCode::quotient:
-      case OperationCode::angle:
-        take(o.u, T(Real(0)));
-        take(o.v, T(Real(0)));
-        return;
       default:
-        take(o.u, T(Real(0)));
+        for_each_operand(o, [&](std::size_t operand) { take(operand, T(Real(0))); });
     }
   }
 
   T& gradient_of(std::size_t value, std::size_t input) {
-    return gradients_[value * list_->inputs() + input];
+    return gradients_[value * list_->variables() + input];
   }
 
-  void set_values(const std::vector<bool>& is_operand) {
-    std::vector<bool> is_output(scales_.size(), false);
-    for (const std::size_t output : list_->outputs()) is_output[output] = true;
+  void set_values() {
+    // The slices of a value are needed by the outputs, or by sums of higher degrees: those of its
+    // products, or its own where it is no mere product.
+    std::vector<bool> is_output_part(scales_.size(), false);
+    std::vector<bool> is_needed(scales_.size(), false);
+    for (const std::size_t output : list_->outputs()) is_output_part[output] = true;
+    for (std::size_t i = scales_.size(); i-- > list_->inputs();) {
+      const Operation& o = list_->operations()[i];
+      if (list_->has_sums(i)) {
+        for_each_operand(o, [&](std::size_t operand) { is_needed[operand] = true; });
+        const bool is_product = o.code == OperationCode::product ||
+                                o.code == OperationCode::square ||
+                                o.code == OperationCode::deviation_product;
+        if (!is_product) is_needed[i] = true;
+      }
+      for (std::size_t f = first_factor_[i]; f < end_factor_[i]; ++f) {
+        if (is_output_part[i]) is_output_part[operands_[f]] = true;
+        if (is_needed[i]) is_needed[operands_[f]] = true;
+      }
+    }
     for (std::size_t i = list_->inputs(); i < scales_.size(); ++i) {
-      // A constant has no slices above degree 0.
-      if (!is_nonlinear(i) && first_factor_[i] == first_factor_[i + 1]) continue;
-      values_.push_back(i);
-      if (is_operand[i] || !is_output[i]) intermediates_.push_back(i);
+      if (list_->is_number(i)) continue;
+      if (is_needed[i] || is_output_part[i]) values_.push_back(i);
+      if (is_needed[i]) intermediates_.push_back(i);
     }
   }
 
-  void set_groups() {
+  void set_groups(int working_order) {
     adjoints_.assign(whole_group * scales_.size(), T(Real(0)));
     std::vector<std::size_t> left;
     for (std::size_t o = 0; o < list_->outputs().size(); ++o) {
@@ -298,36 +312,54 @@ class SlicePropagation {
     for (auto o = left.begin(); o != left.end();) {
       const bool is_whole = left.end() - o >= static_cast<std::ptrdiff_t>(whole_group);
       const auto end = o + (is_whole ? static_cast<std::ptrdiff_t>(whole_group) : 1);
-      groups_.push_back(group_of({o, end}));
+      groups_.push_back(group_of({o, end}, working_order));
       o = end;
     }
   }
 
-  Group group_of(std::vector<std::size_t> outputs) {
+  Group group_of(std::vector<std::size_t> outputs, int working_order) {
     Group group;
     group.outputs = std::move(outputs);
     group.first_weight = weights_.size();
     std::vector<bool> is_reached(scales_.size(), false);
     for (const std::size_t o : group.outputs) is_reached[list_->outputs()[o]] = true;
+    std::vector<std::size_t> sums;
     for (std::size_t i = scales_.size(); i-- > list_->inputs();) {
       if (!is_reached[i]) continue;
       group.values.push_back(i);
-      if (is_nonlinear(i)) group.sums.push_back(i);
-      for (std::size_t f = first_factor_[i]; f < first_factor_[i + 1]; ++f) {
+      if (list_->has_sums(i)) sums.push_back(i);
+      for (std::size_t f = first_factor_[i]; f < end_factor_[i]; ++f) {
         is_reached[operands_[f]] = true;
       }
+    }
+    group.counts.assign(static_cast<std::size_t>(working_order) + 1, 0);
+    group.places.resize(sums.size());
+    for (int d = 2; d <= working_order; ++d) {
+      for (std::size_t k = 0; k < sums.size(); ++k) {
+        if (std::max(lowest_degree(sums[k]), 2) != d) continue;
+        group.places[k] = group.sums.size();
+        group.sums.push_back(sums[k]);
+      }
+      group.counts[static_cast<std::size_t>(d)] = group.sums.size();
     }
     weights_.resize(weights_.size() + group.sums.size() * group.outputs.size());
     return group;
   }
 
+  /// The lowest degree in which an operation has sums.
+  int lowest_degree(std::size_t i) const {
+    const Operation& o = list_->operations()[i];
+    return o.code == OperationCode::deviation_product ? o.lowest[0] + o.lowest[1] : 2;
+  }
+
   const OperationList* list_;
   std::vector<T> scales_;                  ///< by value
-  std::vector<std::size_t> first_factor_;  ///< by value, and one entry for the end
+  std::vector<std::size_t> first_factor_;  ///< by value
+  std::vector<std::size_t> end_factor_;    ///< by value, behind its last operand that has slices
   std::vector<std::size_t> operands_;
   std::vector<T> factors_;
   std::vector<std::size_t> values_;         ///< values that have slices, without the inputs
-  std::vector<std::size_t> intermediates_;  ///< the values of these that are not mere outputs
+  std::vector<std::size_t> intermediates_;  ///< the values of these that sums need
   std::vector<Group> groups_;               ///< groups of the outputs that are not affine
   std::vector<T> weights_;
   std::vector<T> gradients_;  ///< by value and input

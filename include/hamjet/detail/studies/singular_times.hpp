@@ -42,7 +42,8 @@ class LinearFlow {
   std::size_t checkpoint_before(double time) const;
 
  private:
-  double checkpoint_distance(const std::vector<double>& state, double per_revolution) const;
+  double checkpoint_distance(const std::vector<double>& state, double time,
+                             double per_revolution) const;
 
   const ComputedProblem* problem_;
   SpacePointer space_;  ///< space of order 1

@@ -19,6 +19,7 @@ PathFlow::PathFlow(const ComputedProblem& problem, std::vector<double> start,
     if (time == now) return;
     Arc arc{now, std::make_unique<ComputedProblem>(problem), nullptr, matrix};
     arc.problem->nominal = state;
+    arc.problem->start_time = problem.start_time + now;
     arc.flow = std::make_unique<LinearFlow>(*arc.problem, time - now, in_revolution);
     state = arc.flow->nominal(time - now);
     matrix = arc.flow->at(time - now) * matrix;

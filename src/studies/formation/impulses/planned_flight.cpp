@@ -26,7 +26,7 @@ std::vector<double> PlannedTransfer::fly(const TimedImpulses& impulses, const On
   const auto fly_to = [&](double time) {
     if (time == now) return;
     if (on_leg) on_leg(now, time - now, state);
-    state = exact_flow(problem_.system, state, time - now);
+    state = exact_flow(problem_.system, state, problem_.start_time + now, time - now);
     now = time;
   };
   for (std::size_t k = 0; k < impulses.times.size(); ++k) {
@@ -147,7 +147,7 @@ std::string PlannedTransfer::forbidden_by_limits(const TimedImpulses& impulses) 
   WayLimits limits(scene_);
   fly(impulses, [&](double time, double duration, const std::vector<double>& state) {
     const std::vector<double> chief = flow_.nominal(time);
-    limits.fly(chief, state_difference(state, chief), duration);
+    limits.fly(chief, state_difference(state, chief), problem_.start_time + time, duration);
   });
   return limits.forbidden();
 }

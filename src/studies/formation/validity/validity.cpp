@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../../dynamics/autonomy.hpp"
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../checks/flight_checks.hpp"
 #include "../../formation_scale.hpp"
@@ -77,7 +78,8 @@ class ValidityStudy {
     }
     // Polynomials in elements may be exact for every bound orbit. They fail only where a deputy
     // escapes or falls, which is found along the energy alone.
-    const Vector6 energy = direction_of_energy(*problem_.system, problem_.nominal, axes_);
+    const Vector6 energy = direction_of_energy(*frozen_at(problem_.system, problem_.start_time),
+                                               problem_.nominal, axes_);
     samples_.push_back(energy);
     samples_.push_back(-energy);
   }
