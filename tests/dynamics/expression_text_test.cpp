@@ -69,6 +69,23 @@ TEST(ExpressionText, HasTheFunctionsOfTheLibrary) {
   EXPECT_DOUBLE_EQ(value_of("sinh(x)*1e20", {Extended("1e-20"), 1, 1}), 1);
 }
 
+// Powers of one value are merged: the Hamiltonian of Kepler's problem needs one, and so does its
+// force.
+TEST(ExpressionText, MergesPowersOfOneValue) {
+  FunctionText function = function_of("1/r + 3*x/r^3 + (2/r)^2*r");
+  function.definitions = {{"r", "sqrt(x^2 + y^2)"}};
+  const OperationList list = record_function(function);
+  std::vector<double> exponents;
+  for (const Operation& o : list.operations()) {
+    EXPECT_NE(o.code, OperationCode::quotient);
+    if (o.code == OperationCode::power) exponents.push_back(static_cast<double>(o.constant));
+  }
+  EXPECT_EQ(exponents, (std::vector<double>{-0.5, -1.5}));
+  EXPECT_DOUBLE_EQ(value_of("sqrt(px)^3*sqrt(px)/px", {1, 1, 7}), 7);
+  function.is_literal = true;
+  EXPECT_GT(record_function(function).nonlinear_operations(), list.nonlinear_operations());
+}
+
 TEST(ExpressionText, TakesDefinitionsInAnyOrderAndTheTime) {
   FunctionText function = function_of("b - t");
   function.definitions = {{"b", "2*a"}, {"a", "x*mu"}};

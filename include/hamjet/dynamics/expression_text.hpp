@@ -36,6 +36,10 @@ struct FunctionText {
   std::vector<NamedText> parameters;   ///< constants, which may refer to one another
   std::vector<NamedText> definitions;  ///< expressions, which may refer to one another
   std::vector<NamedText> outputs;      ///< expressions; their names are for messages alone
+  /// Whether operations are recorded one by one as they are written, as `print_list` writes them.
+  /// Otherwise powers of one value with exponents n/2 are merged, so that 1/r^3 with r = sqrt(u) is
+  /// u^(-3/2): a field derived from them needs fewer series.
+  bool is_literal = false;
 };
 
 /// A mistake in a text: the part that it is in, and what is wrong there.

@@ -1,6 +1,8 @@
 #include "expression_functions.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 namespace hamjet {
 namespace {
@@ -47,16 +49,62 @@ constexpr RefusedFunction refused_functions[] = {
     {"atanh", "a function made of others", "log((1 + x)/(1 - x))/2"},
 };
 
+/// A value that is factor base^exponent with twice the exponent a whole number.
+struct HalfPower {
+  Extended factor;
+  Expression base;
+  Extended exponent;
+
+  Expression value() const { return factor * pow(base, Expression(exponent)); }
+};
+
+bool is_half_integer(const Extended& x) { return 2 * x == floor(2 * x); }
+
+std::optional<HalfPower> half_power(const Expression& e) {
+  if (e.is_constant()) return std::nullopt;
+  Recorder& recorder = *e.recorder();
+  const Operation* o = &recorder.operation_of(e.value());
+  Extended factor = 1;
+  if (o->code == OperationCode::linear && o->constant == 0 && o->terms.size() == 1) {
+    factor = o->terms[0].coefficient;
+    o = &recorder.operation_of(o->terms[0].value);
+  }
+  if (o->code != OperationCode::power || !is_half_integer(o->constant)) return std::nullopt;
+  return HalfPower{factor, recorder.value(o->u), o->constant};
+}
+
 }  // namespace
 
-Expression general_power(const Expression& a, const Expression& b) {
-  if (b.is_constant()) return pow(a, b);
-  return exp(b * log(a));
+Expression merged_power(const Expression& a, const Expression& b) {
+  if (!b.is_constant()) return exp(b * log(a));
+  const Extended& e = b.constant();
+  const auto power = half_power(a);
+  if (power && is_half_integer(e) && (power->factor > 0 || e == floor(e)) &&
+      is_half_integer(e * power->exponent)) {
+    return HalfPower{pow(power->factor, e), power->base, e * power->exponent}.value();
+  }
+  return pow(a, b);
+}
+
+Expression merged_product(const Expression& a, const Expression& b) {
+  const auto first = half_power(a);
+  const auto second = half_power(b);
+  const bool is_one_base = first && second && first->base.value() == second->base.value();
+  if (!is_one_base) return a * b;
+  return HalfPower{first->factor * second->factor, first->base, first->exponent + second->exponent}
+      .value();
+}
+
+Expression merged_quotient(const Expression& a, const Expression& b) {
+  const bool is_power = half_power(b).has_value() || (a.is_constant() && !b.is_constant());
+  if (is_power) return merged_product(a, merged_power(b, Expression(-1)));
+  return a / b;
 }
 
 const std::vector<ExpressionFunction>& expression_functions() {
   static const std::vector<ExpressionFunction> functions = {
-      {.name = "sqrt", .of_one = [](const Expression& a) { return sqrt(a); }},
+      {.name = "sqrt",
+       .of_one = [](const Expression& a) { return merged_power(a, Expression(0.5)); }},
       {.name = "exp", .of_one = [](const Expression& a) { return exp(a); }},
       {.name = "log", .of_one = [](const Expression& a) { return log(a); }},
       {.name = "sin", .of_one = [](const Expression& a) { return sin(a); }},
@@ -69,7 +117,7 @@ const std::vector<ExpressionFunction>& expression_functions() {
       {.name = "sinh", .of_one = [](const Expression& a) { return sinh(a); }},
       {.name = "cosh", .of_one = [](const Expression& a) { return cosh(a); }},
       {.name = "tanh", .of_one = tanh},
-      {.name = "pow", .of_two = general_power},
+      {.name = "pow", .of_two = merged_power},
       // The angle of a sine and a cosine that are known to be of one angle.
       {.name = "unit_angle",
        .of_two = [](const Expression& s, const Expression& c) { return angle(s, c); }},

@@ -34,7 +34,13 @@ struct RefusedFunction {
 };
 const RefusedFunction* find_refused_function(std::string_view name);
 
+// Products, quotients and powers in which powers of one value with exponents n/2 are merged, as 1/r^3
+// with r = sqrt(u) is u^(-3/2): a field derived from them needs few series.
+
 /// a^b: of a constant exponent as recorded powers, otherwise exp(b log a).
-Expression general_power(const Expression& a, const Expression& b);
+Expression merged_power(const Expression& a, const Expression& b);
+Expression merged_product(const Expression& a, const Expression& b);
+/// a/b; b must not be the constant 0.
+Expression merged_quotient(const Expression& a, const Expression& b);
 
 }  // namespace hamjet

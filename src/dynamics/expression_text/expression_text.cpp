@@ -77,7 +77,7 @@ std::string path_of(Part::Kind kind, const std::string& name) {
 /// All texts of a function, parsed, in an order in which each needs only earlier ones.
 class ParsedFunction {
  public:
-  explicit ParsedFunction(const FunctionText& function) {
+  explicit ParsedFunction(const FunctionText& function) : is_literal_(function.is_literal) {
     const std::size_t count = function.variables.size() + function.parameters.size() +
                               function.definitions.size() + function.outputs.size();
     parts_.reserve(count);  // names point to parts
@@ -268,20 +268,20 @@ class ParsedFunction {
       case TokenKind::subtract:
         return x[0] - x[1];
       case TokenKind::multiply:
-        return x[0] * x[1];
+        return is_literal_ ? x[0] * x[1] : merged_product(x[0], x[1]);
       case TokenKind::divide:
         if (x[1].is_constant() && x[1].constant() == 0) {
           part.fail(token, "division by zero", "must be a divisor other than 0");
         }
-        return x[0] / x[1];
+        return is_literal_ ? x[0] / x[1] : merged_quotient(x[0], x[1]);
       case TokenKind::power:
         return power(part, token, x[0], x[1]);
     }
     return 0;
   }
 
-  static Expression power(const Part& part, const ExpressionToken& token, const Expression& a,
-                          const Expression& b) {
+  Expression power(const Part& part, const ExpressionToken& token, const Expression& a,
+                   const Expression& b) const {
     if (a.is_constant() && a.constant() <= 0 && !b.is_constant()) {
       part.fail(token, "a complex power",
                 "must be of a base above 0 where the exponent is not constant");
@@ -289,7 +289,7 @@ class ParsedFunction {
     if (a.is_constant() && a.constant() == 0 && b.is_constant() && b.constant() < 0) {
       part.fail(token, "division by zero: a negative power of 0", "must be of another base");
     }
-    return general_power(a, b);
+    return is_literal_ && b.is_constant() ? pow(a, b) : merged_power(a, b);
   }
 
   static Expression number(const Part& part, const ExpressionToken& token) {
@@ -352,6 +352,7 @@ class ParsedFunction {
                 fmt::format("must have {}{}", function->arguments(),
                             text == "atan2" ? ", as atan2(y, x)" : ""));
     }
+    if (is_literal_ && text == "sqrt") return sqrt(x[0]);
     return x.size() == 1 ? function->of_one(x[0]) : function->of_two(x[0], x[1]);
   }
 
@@ -385,6 +386,7 @@ class ParsedFunction {
   std::vector<Part*> order_;
   std::vector<char> states_;  ///< by part, while the order is made
   bool uses_time_ = false;
+  bool is_literal_;
   std::optional<Expression> time_;
 };
 

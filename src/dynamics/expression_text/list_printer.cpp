@@ -69,6 +69,7 @@ class ListPrinter {
   FunctionText print(const std::vector<std::string>& outputs) {
     FunctionText function;
     function.variables = variables_;
+    function.is_literal = true;
     if (list_.has_time()) variables_.emplace_back(time_variable);
     for (std::size_t i = 0; i < list_.operations().size(); ++i) {
       values_.push_back(printed(i));

@@ -103,6 +103,9 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   Expression input(std::size_t i) { return {this, i}; }
+  /// A value recorded so far, and its operation.
+  Expression value(std::size_t i) { return {this, i}; }
+  const Operation& operation_of(std::size_t value) const { return operations_[value]; }
   std::vector<Expression> inputs();
 
   /// Records constant + sum of the terms; sums of sums are flattened.
