@@ -86,8 +86,8 @@ std::vector<Extended> evaluate_function(const FunctionText& function,
 std::vector<std::string> unused_names(const FunctionText& function);
 
 /// A list as text, whose `record_function` gives the same list, operation by operation. `variables`
-/// and `outputs` are names for its inputs and outputs; if the list has one input more than there
-/// are names, it is the time. Throws Error(usage) for other numbers of names.
+/// and `outputs` are names for its inputs without the time, and for its outputs. Throws
+/// Error(usage) for other numbers of names, and for lists with fields or functions of the time.
 FunctionText print_list(const OperationList& list, const std::vector<std::string>& variables,
                         const std::vector<std::string>& outputs);
 

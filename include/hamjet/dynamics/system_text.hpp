@@ -43,9 +43,9 @@ inline constexpr std::size_t most_degrees_of_freedom_of_text = 8;
 DynamicalSystem make_system(std::string name, const SystemText& text);
 
 /// Throws ExpressionTextError unless the Hamiltonian (or the vector field) and the equations of
-/// motion have finite values at a state (q, p).
+/// motion have finite values at a state (q, p) and time.
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
-                       std::span<const double> state);
+                       std::span<const double> state, double time = 0);
 
 /// What is almost surely a mistake though it can be computed, as pairs of part and text: names that
 /// nothing uses, momenta without which a coordinate cannot move.
