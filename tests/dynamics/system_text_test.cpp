@@ -45,6 +45,17 @@ TEST(SystemText, HasTheFieldOfTheSystemByName) {
   }
 }
 
+// The powers of 1/r and the polynomials of z/r are merged, so that the force of a system as it is
+// usually written needs as many series as that of the system by name.
+TEST(SystemText, CostsAsMuchAsTheSystemByName) {
+  SystemText text = written_zonals();
+  text.hamiltonian = "(px^2 + py^2 + pz^2)/2 - 1/r*(1 - J2*(R/r)^2*P2)";
+  const DynamicalSystem written = make_system("written", text);
+  const DynamicalSystem named = zonal_gravity({1, 0.9, {{2, 1e-3}}});
+  EXPECT_EQ(written.evaluated_list().nonlinear_operations(),
+            named.evaluated_list().nonlinear_operations());
+}
+
 // A vector field is the part of its lift where the adjoint variables vanish.
 TEST(SystemText, LiftsAVectorField) {
   SystemText text;

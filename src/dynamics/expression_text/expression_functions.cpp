@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 namespace hamjet {
 namespace {
@@ -49,28 +50,64 @@ constexpr RefusedFunction refused_functions[] = {
     {"atanh", "a function made of others", "log((1 + x)/(1 - x))/2"},
 };
 
-/// A value that is factor base^exponent with twice the exponent a whole number.
-struct HalfPower {
+bool is_half_integer(const Extended& x) { return 2 * x == floor(2 * x); }
+
+/// A value factor rest base^exponent, with twice the exponent a whole number; the rest may be
+/// absent.
+struct PowerProduct {
   Extended factor;
+  std::optional<Expression> rest;
   Expression base;
   Extended exponent;
 
-  Expression value() const { return factor * pow(base, Expression(exponent)); }
+  bool is_of_base(const PowerProduct& other) const { return base.value() == other.base.value(); }
+  Expression value() const {
+    const Expression power = pow(base, Expression(exponent));
+    return factor * (rest ? *rest * power : power);
+  }
 };
 
-bool is_half_integer(const Extended& x) { return 2 * x == floor(2 * x); }
+const Operation& operation_of(const Expression& e) { return e.recorder()->operation_of(e.value()); }
 
-std::optional<HalfPower> half_power(const Expression& e) {
+std::optional<PowerProduct> power_product(Expression e) {
   if (e.is_constant()) return std::nullopt;
   Recorder& recorder = *e.recorder();
-  const Operation* o = &recorder.operation_of(e.value());
   Extended factor = 1;
-  if (o->code == OperationCode::linear && o->constant == 0 && o->terms.size() == 1) {
-    factor = o->terms[0].coefficient;
-    o = &recorder.operation_of(o->terms[0].value);
+  if (const Operation& o = operation_of(e);
+      o.code == OperationCode::linear && o.constant == 0 && o.terms.size() == 1) {
+    factor = o.terms[0].coefficient;
+    e = recorder.value(o.terms[0].value);
   }
-  if (o->code != OperationCode::power || !is_half_integer(o->constant)) return std::nullopt;
-  return HalfPower{factor, recorder.value(o->u), o->constant};
+  const auto is_power = [](const Operation& o) {
+    return o.code == OperationCode::power && is_half_integer(o.constant);
+  };
+  const Operation& o = operation_of(e);
+  if (is_power(o)) return PowerProduct{factor, std::nullopt, recorder.value(o.u), o.constant};
+  if (o.code != OperationCode::product) return std::nullopt;
+  for (const auto& [place, other] : {std::pair{o.u, o.v}, std::pair{o.v, o.u}}) {
+    const Operation& power = recorder.operation_of(place);
+    if (!is_power(power)) continue;
+    return PowerProduct{factor, recorder.value(other), recorder.value(power.u), power.constant};
+  }
+  return std::nullopt;
+}
+
+/// The product of a sum, all of whose terms have powers of this one's base, with this power, term
+/// by term; no value for other sums.
+std::optional<Expression> distributed(const Expression& sum, const PowerProduct& power) {
+  if (power.rest || sum.is_constant()) return std::nullopt;
+  const Operation o = operation_of(sum);  // recording moves operations
+  if (o.code != OperationCode::linear) return std::nullopt;
+  std::vector<PowerProduct> terms;
+  for (const LinearTerm& term : o.terms) {
+    const auto of_term = power_product(sum.recorder()->value(term.value));
+    if (!of_term || !of_term->is_of_base(power)) return std::nullopt;
+    terms.push_back({of_term->factor * term.coefficient * power.factor, of_term->rest, power.base,
+                     of_term->exponent + power.exponent});
+  }
+  Expression result = o.constant * power.value();
+  for (const PowerProduct& term : terms) result += term.value();
+  return result;
 }
 
 }  // namespace
@@ -78,25 +115,38 @@ std::optional<HalfPower> half_power(const Expression& e) {
 Expression merged_power(const Expression& a, const Expression& b) {
   if (!b.is_constant()) return exp(b * log(a));
   const Extended& e = b.constant();
-  const auto power = half_power(a);
-  if (power && is_half_integer(e) && (power->factor > 0 || e == floor(e)) &&
-      is_half_integer(e * power->exponent)) {
-    return HalfPower{pow(power->factor, e), power->base, e * power->exponent}.value();
-  }
-  return pow(a, b);
+  const bool is_whole = e == floor(e);
+  const auto power = power_product(a);
+  const bool is_merged = power && is_half_integer(e) && is_half_integer(e * power->exponent) &&
+                         (power->factor > 0 || is_whole) && (!power->rest || (is_whole && e > 0));
+  if (!is_merged) return pow(a, b);
+  std::optional<Expression> rest;
+  if (power->rest) rest = pow(*power->rest, b);
+  return PowerProduct{pow(power->factor, e), rest, power->base, e * power->exponent}.value();
 }
 
 Expression merged_product(const Expression& a, const Expression& b) {
-  const auto first = half_power(a);
-  const auto second = half_power(b);
-  const bool is_one_base = first && second && first->base.value() == second->base.value();
-  if (!is_one_base) return a * b;
-  return HalfPower{first->factor * second->factor, first->base, first->exponent + second->exponent}
-      .value();
+  const auto first = power_product(a);
+  const auto second = power_product(b);
+  if (first && second && first->is_of_base(*second)) {
+    std::optional<Expression> rest = first->rest ? first->rest : second->rest;
+    if (first->rest && second->rest) rest = *first->rest * *second->rest;
+    return PowerProduct{first->factor * second->factor, rest, first->base,
+                        first->exponent + second->exponent}
+        .value();
+  }
+  if (second) {
+    if (const auto sum = distributed(a, *second)) return *sum;
+  }
+  if (first) {
+    if (const auto sum = distributed(b, *first)) return *sum;
+  }
+  return a * b;
 }
 
 Expression merged_quotient(const Expression& a, const Expression& b) {
-  const bool is_power = half_power(b).has_value() || (a.is_constant() && !b.is_constant());
+  const auto divisor = power_product(b);
+  const bool is_power = (divisor && !divisor->rest) || (a.is_constant() && !b.is_constant());
   if (is_power) return merged_product(a, merged_power(b, Expression(-1)));
   return a / b;
 }

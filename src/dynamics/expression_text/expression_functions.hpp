@@ -34,8 +34,9 @@ struct RefusedFunction {
 };
 const RefusedFunction* find_refused_function(std::string_view name);
 
-// Products, quotients and powers in which powers of one value with exponents n/2 are merged, as 1/r^3
-// with r = sqrt(u) is u^(-3/2): a field derived from them needs few series.
+// Products, quotients and powers in which powers of one value with exponents n/2 are merged, as
+// 1/r^3 with r = sqrt(u) is u^(-3/2), and (z/r)^2 is z^2/u; a sum of such is multiplied term by
+// term. A field derived from them needs few series.
 
 /// a^b: of a constant exponent as recorded powers, otherwise exp(b log a).
 Expression merged_power(const Expression& a, const Expression& b);
