@@ -109,6 +109,35 @@ Expression cos(const Expression& a) {
   if (a.is_constant()) return Extended(cos(a.constant()));
   return a.recorder()->sine_cosine(a.value()).second;
 }
+Expression sinh(const Expression& a) {
+  if (a.is_constant()) return Extended(sinh(a.constant()));
+  return a.recorder()->sine_cosine(a.value(), OperationCode::hyperbolic_sine).first;
+}
+Expression cosh(const Expression& a) {
+  if (a.is_constant()) return Extended(cosh(a.constant()));
+  return a.recorder()->sine_cosine(a.value(), OperationCode::hyperbolic_sine).second;
+}
+Expression angle(const Expression& sine, const Expression& cosine) {
+  if (sine.is_constant() && cosine.is_constant()) {
+    return Extended(atan2(sine.constant(), cosine.constant()));
+  }
+  Recorder& recorder = common_recorder(sine, cosine);
+  const auto value = [&](const Expression& a) {
+    return a.is_constant() ? recorder.constant_value(a.constant()) : a.value();
+  };
+  const std::size_t u = value(sine);
+  return recorder.operation(OperationCode::angle, u, value(cosine));
+}
+
+Expression tan(const Expression& a) { return sin(a) / cos(a); }
+Expression tanh(const Expression& a) { return sinh(a) / cosh(a); }
+Expression asin(const Expression& a) { return angle(a, sqrt((1 - a) * (1 + a))); }
+Expression acos(const Expression& a) { return angle(sqrt((1 - a) * (1 + a)), a); }
+Expression atan(const Expression& a) { return atan2(a, 1); }
+Expression atan2(const Expression& y, const Expression& x) {
+  const Expression inverse_radius = pow(square(x) + square(y), Expression(-0.5));
+  return angle(y * inverse_radius, x * inverse_radius);
+}
 
 Expression field_value(const std::shared_ptr<const LocalField>& field,
                        const std::array<Expression, 3>& position,
@@ -259,16 +288,17 @@ Expression Recorder::time_function(const std::shared_ptr<const TimeFunction>& fu
   return {this, record(std::move(o))};
 }
 
-std::pair<Expression, Expression> Recorder::sine_cosine(std::size_t u) {
+std::pair<Expression, Expression> Recorder::sine_cosine(std::size_t u, OperationCode sine_code) {
   // Sine and cosine are recorded one after the other, so that the number of each follows from the
   // other's.
-  const Key key{OperationCode::sine, u, 0, 0, {}, nullptr, {}};
+  const auto cosine_code = static_cast<OperationCode>(static_cast<int>(sine_code) + 1);
+  const Key key{sine_code, u, 0, 0, {}, nullptr, {}};
   const auto known = known_.find(key);
   const std::size_t sine = known != known_.end() ? known->second : operations_.size();
   if (known == known_.end()) {
     known_.emplace(key, sine);
-    append({OperationCode::sine, u, sine + 1});
-    append({OperationCode::cosine, u, sine});
+    append({sine_code, u, sine + 1});
+    append({cosine_code, u, sine});
   }
   return {Expression(this, sine), Expression(this, sine + 1)};
 }

@@ -67,7 +67,9 @@ class FieldExpansion {
       for (LinearTerm& term : o.terms) term.value = place_[term.value];
       o.parts = placed(std::move(o.parts));
       // The partner of a sine follows it.
-      if (o.code == OperationCode::sine) o.v = operations_.size() + 1;
+      if (o.code == OperationCode::sine || o.code == OperationCode::hyperbolic_sine) {
+        o.v = operations_.size() + 1;
+      }
       place_[i] = add(std::move(o));
     }
     std::vector<std::size_t> outputs;

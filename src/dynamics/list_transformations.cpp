@@ -36,6 +36,12 @@ Partials partial_derivatives(const Operation& o, std::span<const Expression> val
       return {cos(u), 0};
     case OperationCode::cosine:
       return {-sin(u), 0};
+    case OperationCode::hyperbolic_sine:
+      return {cosh(u), 0};
+    case OperationCode::hyperbolic_cosine:
+      return {sinh(u), 0};
+    case OperationCode::angle:
+      return {values[o.v], -u};
     case OperationCode::time_function:  // its operand depends on no variable
     case OperationCode::field:          // see for_each_field_derivative
     case OperationCode::deviation_product:
@@ -132,6 +138,15 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
       case OperationCode::cosine:
         values.push_back(cos(values[o.u]));
         break;
+      case OperationCode::hyperbolic_sine:
+        values.push_back(sinh(values[o.u]));
+        break;
+      case OperationCode::hyperbolic_cosine:
+        values.push_back(cosh(values[o.u]));
+        break;
+      case OperationCode::angle:
+        values.push_back(angle(values[o.u], values[o.v]));
+        break;
       case OperationCode::time_function:
         values.push_back(time_values(o.time_function, values[o.u])[o.component]);
         break;
@@ -187,9 +202,7 @@ OperationList gradient(const OperationList& list) {
           }
           const Partials partials = partial_derivatives(o, values, i);
           adjoint[o.u] += adjoint[i] * partials.u;
-          if (o.code == OperationCode::product || o.code == OperationCode::quotient) {
-            adjoint[o.v] += adjoint[i] * partials.v;
-          }
+          if (has_two_operands(o.code)) adjoint[o.v] += adjoint[i] * partials.v;
         }
         adjoint.resize(list.variables());  // the inputs stand first
         return adjoint;
@@ -220,11 +233,9 @@ OperationList jacobian(const OperationList& list) {
             for_each_field_derivative(o, values, add);
           } else {
             const Partials partials = partial_derivatives(o, values, i);
-            const bool binary =
-                o.code == OperationCode::product || o.code == OperationCode::quotient;
             for (std::size_t j = 0; j < n; ++j) {
               tangent[j] = partials.u * tangents[o.u][j];
-              if (binary) tangent[j] += partials.v * tangents[o.v][j];
+              if (has_two_operands(o.code)) tangent[j] += partials.v * tangents[o.v][j];
             }
           }
           tangents.push_back(std::move(tangent));

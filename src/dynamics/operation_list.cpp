@@ -86,9 +86,6 @@ std::size_t OperationList::nonlinear_operations() const {
 
 OperationList needed_operations(std::size_t inputs, std::vector<Operation> operations,
                                 std::vector<std::size_t> outputs, bool has_time) {
-  const auto has_partner = [](const Operation& o) {
-    return o.code == OperationCode::sine || o.code == OperationCode::cosine;
-  };
   const std::size_t size = operations.size();
   std::vector<bool> is_needed(size, false);
   for (std::size_t i = 0; i < inputs; ++i) is_needed[i] = true;
@@ -97,7 +94,7 @@ OperationList needed_operations(std::size_t inputs, std::vector<Operation> opera
   for (std::size_t i = size; i-- > inputs;) {
     if (!is_needed[i]) continue;
     for_each_operand(operations[i], [&](std::size_t operand) { is_needed[operand] = true; });
-    if (has_partner(operations[i])) is_needed[operations[i].v] = true;
+    if (is_of_pair(operations[i].code)) is_needed[operations[i].v] = true;
   }
   std::vector<bool> is_number(size, false);
   for (std::size_t i = 0; i < size; ++i) {

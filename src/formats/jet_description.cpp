@@ -15,6 +15,7 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.scene = scene.name;
   description.label = run.settings.label;
   description.model = scene.system.model;
+  description.own_names = scene.system.own_names;
   description.precision = scene.precision;
   description.units = scene.units;
   description.duration = scene.duration;

@@ -134,6 +134,15 @@ struct DescribedRun {
   JsonReader json;
 };
 
+std::vector<std::string> state_names(const JsonReader& json, const StoredJet& stored) {
+  auto names = json.list([](const JsonReader& name) { return name.text(); });
+  if (stored.model != SystemModel::own || names.size() != stored.nominal_initial.size()) {
+    json.fail(fmt::format("must have {} names, of a model that has its own",
+                          stored.nominal_initial.size()));
+  }
+  return names;
+}
+
 DescribedRun read_description(const JsonReader& root, const std::optional<std::string>& label) {
   require_this_version(root);
   StoredJet stored;
@@ -149,6 +158,7 @@ DescribedRun read_description(const JsonReader& root, const std::optional<std::s
   }
   if (root.has("autonomous")) stored.is_autonomous = root.at("autonomous").boolean();
   stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
+  if (root.has("state_names")) stored.own_names = state_names(root.at("state_names"), stored);
   const auto names = stored.variable_names();
   stored.components = indices(root.at("components"), names);
   stored.variables = indices(root.at("variables"), names);

@@ -109,10 +109,13 @@ class TimeExpansion {
   const T* value(std::size_t i) const { return coefficients_.data() + i * stride_; }
 
   void form(const Step& o, int k) {
+    using std::atan2;
     using std::cos;
+    using std::cosh;
     using std::exp;
     using std::log;
     using std::sin;
+    using std::sinh;
     T* const w = coefficients_.data() + o.value;
     const T* const u = coefficients_.data() + o.u;
     const T* const v = coefficients_.data() + o.v;
@@ -168,6 +171,15 @@ class TimeExpansion {
         return;
       case OperationCode::sine:
         w[k] = k == 0 ? T(sin(u[0])) : by_derivative(u, v, k);
+        return;
+      case OperationCode::hyperbolic_cosine:  // c' = u' s, and s' = u' c
+        w[k] = k == 0 ? T(cosh(u[0])) : by_derivative(u, v, k);
+        return;
+      case OperationCode::hyperbolic_sine:
+        w[k] = k == 0 ? T(sinh(u[0])) : by_derivative(u, v, k);
+        return;
+      case OperationCode::angle:  // w' = v u' - u v'
+        w[k] = k == 0 ? T(atan2(u[0], v[0])) : by_derivative(u, v, k) - by_derivative(v, u, k);
         return;
       case OperationCode::time_function:
         w[k] = time_value(list_->operations()[o.value / stride_], k);

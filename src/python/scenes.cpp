@@ -12,6 +12,7 @@
 
 #include "../scene/document/scene_document.hpp"
 #include "../scene/document/scene_text.hpp"
+#include "../scene/scene_sections.hpp"
 #include "../text/scene_message.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
@@ -152,6 +153,17 @@ GivenScene scene_of_tables(const py::object& mapping, const std::string& name,
   return {[&](io::SceneUnits units) { return io::read_document(document, name, units); }, name};
 }
 
+/// Checks the table `[system]` alone, and returns the names of the variables.
+std::vector<std::string> checked_system(const py::object& mapping, const std::string& name) {
+  toml::table tables;
+  tables.insert_or_assign("system", table_of(mapping, {name, "system"}, 0));
+  const io::SceneDocument document = io::make_document(std::move(tables), name, {});
+  const io::TableReader root(document.table, "", document.source, &io::all_studies().front().top);
+  const SystemSettings settings = io::read_system(root);
+  const auto names = variable_names(settings);
+  return {names.begin(), names.end()};
+}
+
 }  // namespace
 
 void bind_scenes(py::module_& module) {
@@ -161,6 +173,7 @@ void bind_scenes(py::module_& module) {
   module.def("scene_of_file", &scene_of_file, py::arg("file"), py::arg("overrides"));
   module.def("scene_of_text", &scene_of_text, py::arg("text"), py::arg("name"),
              py::arg("overrides"));
+  module.def("checked_system", &checked_system, py::arg("system"), py::arg("name"));
   module.def("scene_of_tables", &scene_of_tables, py::arg("tables"), py::arg("name"),
              py::arg("overrides"));
 }

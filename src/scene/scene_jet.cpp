@@ -107,7 +107,9 @@ const TableDescription& jet_table() {
              "degree of the Taylor polynomials in the initial deviations"},
             {"variables", form::words("array of the model's variables", form::array(form::text())),
              absent::other("all"),
-             "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ..."},
+             "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model "
+             "`own` "
+             "by its own names, without choice the states of a vector field"},
             {"duration_s", form::number(), other_duration, "negative is backwards"},
             {"duration_canonical", form::number(), other_duration, "the same"},
             {"arcs",
@@ -177,6 +179,8 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   JetSettings settings;
   settings.order = read_order(jet, names.size(), precision);
   settings.variables = read_variables(jet, names);
+  const bool has_adjoint = system.own_text && !system.own_text->is_hamiltonian();
+  if (has_adjoint && !jet.has("variables")) settings.variables.resize(names.size() / 2);
   settings.duration = read_duration(jet, is_orbit(system.model), nominal);
   settings.arcs = read_arcs(jet);
   jet.read_if_any("symmetry", settings.symmetry);

@@ -89,22 +89,33 @@ double Nominal::told_time(double time) const {
 
 const TableDescription& units_table() {
   static const TableDescription table = {
-      {{"length_km", form::positive(), absent::refused(), "canonical unit of length"}},
+      {{"length_km", form::positive(), absent::refused(), "canonical unit of length"},
+       {"time_s",
+        form::positive(),
+        absent::refused(),
+        "what a time of 1 means",
+        {description_of(SystemModel::own).name}}},
       "Canonical numbers are read and told in it. `run` and `compare` compute in it, all else in "
       "the "
-      "chief's own: its distance at the start."};
+      "chief's own: its distance at the start. The numbers of a model `own` are in units of "
+      "`length_km` and `time_s`, without this table in metres and seconds."};
   return table;
 }
 
 const TableDescription& nominal_table() {
   const std::vector<std::string_view> other = {other_models};
+  const std::vector<std::string_view> own = {description_of(SystemModel::own).name};
   const auto of_model = form::words("array of n numbers", form::array(form::number()));
   static const TableDescription table = {
       joined<SceneKey>(
           {orbit_keys({orbits}),
            epoch_keys(),
            {{"position_m", of_model, absent::refused(), "of each degree of freedom", other},
-            {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other}}}),
+            {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other},
+            {"coordinates", of_model, absent::other("`states`"), "in the system's own units", own},
+            {"momenta", of_model, absent::other("`states`"), "likewise", own},
+            {"states", of_model, absent::other("`coordinates` and `momenta`"),
+             "of a vector field, in the system's own units", own}}}),
       "An orbit has one of three forms: position and velocity, osculating elements, or the file of "
       "a message, whose path is relative to the scene's folder. Elements are size and shape "
       "(`a_km` "
@@ -121,13 +132,44 @@ double read_unit_of_length(const TableReader& units, SystemModel model) {
                                "out: its units are metre, second and kilogram",
                                model_name(model)));
   }
-  units.check_keys();
+  units.check_keys(orbits, "an orbit");
   return units.number("length_km");
 }
+
+CanonicalScale read_units_of_own(const TableReader& units) {
+  units.check_keys();
+  return {Extended(units.number("length_km")), Extended(units.number("time_s"))};
+}
+
+namespace {
+
+/// The state of a system that the scene writes; adjoint variables begin with 0.
+std::vector<double> read_own_state(const TableReader& nominal, const SystemSettings& system) {
+  const std::size_t n = degrees_of_freedom_of(system);
+  if (!system.own_text->is_hamiltonian()) {
+    std::vector<double> state = nominal.numbers("states", n);
+    state.resize(2 * n, 0);
+    return state;
+  }
+  std::vector<double> state = nominal.numbers("coordinates", n);
+  const std::vector<double> momenta = nominal.numbers("momenta", n);
+  state.insert(state.end(), momenta.begin(), momenta.end());
+  return state;
+}
+
+}  // namespace
 
 Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
                      const std::optional<double>& length_km, SceneUnits units,
                      const std::optional<std::string>& center_name) {
+  if (system.model == SystemModel::own) {
+    const std::string_view own = model_name(system.model);
+    nominal.check_keys(own, "the model " + std::string(own));
+    Nominal result;
+    result.scale = result.told = {Extended(1) / 1000, Extended(1)};
+    result.state = read_own_state(nominal, system);
+    return result;
+  }
   check_keys_of_model(nominal, system.model);
   if (is_orbit(system.model)) {
     refuse_epoch_keys(nominal, system);

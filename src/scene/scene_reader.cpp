@@ -69,6 +69,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     if (root.has("units")) scene.told_units = canonical_units(nominal.told);
     scene.nominal_file = nominal.file;
     scene.warnings = likely_slips(root, scene);
+    set_own_system(root.table("system"), scene);
   });
   if (!has_start) return scene;
   read_table("formation", [&](const auto& table) {
@@ -179,7 +180,9 @@ double read_formation(const TableReader& formation, SystemModel model,
   const std::string_view key = orbit ? "separation_km" : "separation_m";
   check_keys_of_model(formation, model);
   const double given = formation.number(key);
-  const double separation = orbit ? scale.length_of_km(given) : given;
+  const double km = orbit ? given : given / 1000;
+  const bool is_canonical = !orbit && model != SystemModel::own;
+  const double separation = is_canonical ? given : scale.length_of_km(km);
   if (!std::isfinite(separation) || separation == 0) {
     formation.fail(key, fmt::format("out of range, got {}, which is {} in canonical units, must be "
                                     "within binary64 there",

@@ -55,6 +55,15 @@ void require_centre_of_mass(const TableReader& system, const std::optional<doubl
 GravityFile gravity_file_of(const TableReader& system, const GravityModel& field,
                             const std::optional<double>& origin_offset_km);
 
+/// Throws about a part of the text of a system, see ExpressionTextError, at its key below
+/// `[system]`.
+[[noreturn]] void fail_in_text(const TableReader& system, const std::string& part,
+                               const std::string& problem);
+
+/// Makes the system that the scene writes, if it does, and warns of likely mistakes in it. Throws
+/// Error(scene) if it has no finite values at the nominal's start.
+void set_own_system(const TableReader& system, Scene& scene);
+
 /// The moment at which the nominal of a scene starts, from the table `[ephemeris]` or from the
 /// orbit message that the nominal is read from; no value if there is neither.
 std::optional<Epoch> epoch_of_start(const TableReader& root);
@@ -90,9 +99,11 @@ struct Nominal {
   double told_time(double time) const;
 };
 
-/// Table `[units]`: the canonical unit of length, `length_km`. Throws Error(scene) for a model that
-/// is not an orbit, whose units are fixed.
+/// Table `[units]` of an orbit: the canonical unit of length, `length_km`. Throws Error(scene) for
+/// a model whose units are fixed.
 double read_unit_of_length(const TableReader& units, SystemModel model);
+/// Table `[units]` of a system that the scene writes: what its numbers mean.
+CanonicalScale read_units_of_own(const TableReader& units);
 
 /// Table `[nominal]`. For an orbit the unit of length is `length_km` or, without this key or with
 /// SceneUnits::chiefs, the distance from the centre. The unit of time is sqrt(length^3 / mu), so
@@ -118,13 +129,19 @@ Nominal read_start(const TableReader& root, ModelScene& scene,
   const TableReader system = root.table("system");
   scene.system = read_system(root);
   std::optional<double> length_km;
-  if (root.has("units")) length_km = read_unit_of_length(root.table("units"), scene.system.model);
+  const bool is_own = scene.system.model == SystemModel::own;
+  if (root.has("units") && !is_own) {
+    length_km = read_unit_of_length(root.table("units"), scene.system.model);
+  }
   std::optional<std::string> center_name;
   if (root.has("ephemeris") && root.table("ephemeris").has("center_name")) {
     center_name = root.table("ephemeris").text("center_name");
   }
   Nominal nominal =
       read_nominal(root.table("nominal"), scene.system, length_km, units, center_name);
+  if (root.has("units") && is_own) {
+    nominal.scale = nominal.told = read_units_of_own(root.table("units"));
+  }
   scene.nominal = nominal.state;
   scene.units = canonical_units(nominal.scale);
   scene.canonical_radius = read_canonical_radius(system, scene.system, nominal.scale);

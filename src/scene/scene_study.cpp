@@ -99,7 +99,9 @@ TableDescription energy_conservation_top() {
 std::vector<std::string_view> kind_of_model(const toml::table& scene) {
   const auto name = scene.at_path("system.model").value<std::string_view>();
   for (const SystemDescription& system : all_systems()) {
-    if (name == system.name) return {is_orbit(system.model) ? orbits : other_models};
+    if (name != system.name) continue;
+    if (system.model == SystemModel::own) return {system.name};
+    return {is_orbit(system.model) ? orbits : other_models};
   }
   return {};
 }

@@ -14,6 +14,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json texts_json(const std::vector<NamedText>& texts) {
+  Json json = Json::object();
+  for (const NamedText& text : texts) json[text.name] = text.text;
+  return json;
+}
+
+/// A system as its scene writes it; null for one that was made in C++.
+Json own_json(const std::optional<SystemText>& text) {
+  if (!text) return nullptr;
+  Json json = Json::object();
+  if (text->is_hamiltonian()) {
+    json["coordinates"] = text->coordinates;
+    json["momenta"] = text->momenta;
+    json["hamiltonian"] = text->hamiltonian;
+  } else {
+    json["states"] = text->states;
+    json["vector_field"] = texts_json(text->vector_field);
+  }
+  json["parameters"] = texts_json(text->parameters);
+  json["definitions"] = texts_json(text->definitions);
+  return json;
+}
+
 /// The parameters that the model has, by the keys of scenes.
 Json mechanics_json(const SystemSettings& system) {
   Json json = Json::object();
@@ -30,6 +53,7 @@ Json mechanics_json(const SystemSettings& system) {
 }  // namespace
 
 Json system_json(const SystemSettings& system) {
+  if (system.model == SystemModel::own) return own_json(system.own_text);
   if (!is_orbit(system.model)) return mechanics_json(system);
   Json J = Json::object();
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {

@@ -25,12 +25,13 @@ Outputs every_operation(Inputs x) {
   const Expression a = x[0] * x[1] + 2 * x[2] - 1;
   const Expression b = square(x[1]) / (x[0] + x[2]);
   return {exp(a * b / 8) + log(x[0] + 2), pow(x[1] + x[2], Expression(-1.5)) * sin(a) + cos(b),
-          sqrt(x[0] + square(x[2])) - 1 / x[1], pow(x[2], Expression(0.3)) * cos(a) + 4};
+          sqrt(x[0] + square(x[2])) - 1 / x[1] + atan2(x[0], x[1]) * x[2],
+          pow(x[2], Expression(0.3)) * cos(a) + 4 + tanh(a)};
 }
 
 TEST(Recording, HoldsEveryOperationCode) {
   const OperationList list = record(3, every_operation);
-  std::vector<bool> seen(10, false);
+  std::vector<bool> seen(13, false);
   for (const Operation& o : list.operations()) seen[static_cast<std::size_t>(o.code)] = true;
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_TRUE(seen[i]) << "code " << i;
 }
@@ -67,6 +68,52 @@ TEST(Recording, RecordsEqualOperationsOnce) {
                                    return Outputs{sin(x[0]) + cos(x[0]), cos(x[0])};
                                  })),
             3u);
+}
+
+// Identities of the functions that are made of others, at all degrees: tan(atan x) = x and the like,
+// sinh and cosh by the exponential function, and the angle of a point in each quadrant.
+TEST(Recording, HasTheFunctionsMadeOfOthers) {
+  const auto space = SeriesSpace::create(2, 6);
+  const OperationList identities = record(2, [](Inputs z) {
+    const Expression x = z[0], y = z[1];
+    const Expression r = sqrt(x * x + y * y), angle = atan2(y, x);
+    return Outputs{tan(atan(x)) - x,
+                   sin(asin(x / r)) - x / r,
+                   cos(acos(x / r)) - x / r,
+                   asin(x / r) + acos(x / r) - acos(Expression(0)),
+                   r * cos(angle) - x,
+                   r * sin(angle) - y,
+                   sinh(x) - (exp(x) - exp(-x)) / 2,
+                   cosh(x) - (exp(x) + exp(-x)) / 2,
+                   tanh(x) - 1 + 2 / (exp(2 * x) + 1)};
+  });
+  for (const double x : {0.75, -0.75}) {
+    for (const double y : {0.5, -0.5}) {
+      const auto values = evaluate_on_series(
+          identities, std::vector{Series<Extended>::variable(space, 0, Extended(x)),
+                                  Series<Extended>::variable(space, 1, Extended(y))});
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        EXPECT_LE(test::largest_coefficient(values[i]), 1e-28) << "identity " << i << " at " << x;
+      }
+    }
+  }
+}
+
+TEST(Recording, FoldsTheFunctionsOfConstants) {
+  const auto value = [](const Expression& e) {
+    EXPECT_TRUE(e.is_constant());
+    return static_cast<double>(e.constant());
+  };
+  EXPECT_DOUBLE_EQ(value(atan2(Expression(1), Expression(-1))), 3 * std::acos(-1.0) / 4);
+  EXPECT_DOUBLE_EQ(value(acos(Expression(-1))), std::acos(-1.0));
+  EXPECT_DOUBLE_EQ(value(sinh(Expression(1))), std::sinh(1.0));
+  EXPECT_DOUBLE_EQ(value(cosh(Expression(1))), std::cosh(1.0));
+  EXPECT_DOUBLE_EQ(value(tan(Expression(1))), std::tan(1.0));
+  // On the negative x axis, where the angle jumps and its derivatives do not: d angle / dy = 1/x.
+  const OperationList list = record(2, [](Inputs z) { return Outputs{atan2(z[1], z[0])}; });
+  const auto slopes = test::evaluate_list(gradient(list), std::vector<double>{-2, 0});
+  EXPECT_DOUBLE_EQ(slopes[0], 0);
+  EXPECT_DOUBLE_EQ(slopes[1], -0.5);
 }
 
 TEST(Recording, DropsWhatNoOutputNeeds) {

@@ -214,6 +214,32 @@ TEST(SliceEvaluator, AnOutputThatIsNotFiniteLeavesTheOthersAlone) {
   EXPECT_EQ(evaluator.output_gradient(2, 1), 2);
 }
 
+// A force cos(q) is an output that no operation has as its operand, and the sums of its sine, which is
+// needed for the next degree, are made of its slices.
+TEST(SliceEvaluator, ThePartnerOfAPairIsCompletedWhereOutputsAreLeft) {
+  const OperationList list = record(3, [](std::span<const Expression> x) {
+    return std::vector<Expression>{cos(x[0] * x[1]), cosh(x[1] + x[2])};
+  });
+  const auto inputs = sample_inputs<double>(SeriesSpace::create(3, order));
+  const auto expected = evaluated(list, inputs);
+  SliceEvaluator<double, double> evaluator(list, inputs[0].space_pointer(), order);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    std::copy(inputs[i].coefficients().begin(), inputs[i].coefficients().end(), evaluator.input(i));
+  }
+  evaluator.evaluate_constant_terms();
+  for (int d = 1; d <= order; ++d) {
+    evaluator.evaluate_remainder(d);
+    if (d < order) evaluator.complete_intermediates(d);
+  }
+  evaluator.complete(order);
+  const SeriesSpace& space = inputs[0].space();
+  for (std::size_t o = 0; o < 2; ++o) {
+    for (std::size_t k = space.first(order); k < space.size(); ++k) {
+      EXPECT_NEAR(evaluator.output(o)[k], expected.output(o)[k], 1e-13) << o << " " << k;
+    }
+  }
+}
+
 TEST(SliceEvaluator, AffineOutputsHaveNoRemainder) {
   const auto space = SeriesSpace::create(3, order);
   const OperationList list = recorded();

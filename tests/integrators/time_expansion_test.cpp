@@ -14,16 +14,20 @@ namespace {
 struct Everything {
   template <class T>
   std::vector<T> operator()(std::span<const T> x) const {
+    using std::atan2;
     using std::cos;
+    using std::cosh;
     using std::exp;
     using std::log;
     using std::pow;
     using std::sin;
+    using std::sinh;
     const T& u = x[0];
     const T product = u * x[1];
     return {product,        product * product, x[1] / (u + T(2)), exp(product),
             log(u + T(1)),  sin(product),      cos(product),      pow(u, T(-1.5)),
-            pow(u, T(0.3)), T(3) * u - x[1],   T(1) / product,    pow(product, T(0.5))};
+            pow(u, T(0.3)), T(3) * u - x[1],   T(1) / product,    pow(product, T(0.5)),
+            sinh(product),  cosh(product),     atan2(u, x[1])};
   }
 };
 

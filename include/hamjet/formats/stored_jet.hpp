@@ -74,6 +74,7 @@ struct StoredJet {
   std::optional<StoredFlowBox> flow_box = {};
   /// Notes of the reader about the file, one line each.
   std::vector<std::string> notes = {};
+  std::vector<std::string> own_names = {};  ///< of a model "own", see SystemSettings
   /// One series for each component. In extended precision the printed digits bring back the numbers
   /// of the run bit by bit; in double precision the numbers are doubles.
   FlowJet<Extended> jet;
@@ -83,6 +84,7 @@ struct StoredJet {
   int momentum_exponent() const;
   /// Names of the model's state (q, p), to which `components` and `variables` are indices.
   std::vector<std::string_view> variable_names() const {
+    if (!own_names.empty()) return {own_names.begin(), own_names.end()};
     return hamjet::variable_names(model, nominal_initial.size() / 2);
   }
 };

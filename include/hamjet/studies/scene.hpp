@@ -166,7 +166,8 @@ struct Scene {
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent if the scene itself has the numbers
   std::vector<std::string> warnings;        ///< likely mistakes in the scene, one line each
-  /// The system of a scene that no file describes, in canonical units; see make_scene.
+  /// The system of the model "own", in canonical units: the caller's, see make_scene, or that which
+  /// the scene writes.
   std::shared_ptr<const DynamicalSystem> own_system = nullptr;
 };
 

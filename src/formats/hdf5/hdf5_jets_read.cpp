@@ -129,6 +129,12 @@ StoredJet read_scene(const Reader& root) {
                                              "the model",
                                              dimension));
   }
+  if (stored.model == SystemModel::own) {
+    stored.own_names = root.texts("state");
+    if (stored.own_names.size() != dimension) {
+      root.fail("state", fmt::format("the attribute must have {} names", dimension));
+    }
+  }
   const auto names = stored.variable_names();
   stored.components = indices(root, "components", names);
   stored.variables = indices(root, "variables", names);

@@ -9,8 +9,8 @@
     transfers = hamjet.transfer("data/scenes/transfer-earth-orbit.toml")
 
 A scene is a TOML file, its text, or a dict, which `orbit` makes of keyword arguments;
-data/scenes/README.md has its keys. Systems are those
-that scenes can name: a Hamiltonian of your own needs the C++ library. Coefficients, exponents and
+data/scenes/README.md has its keys. A Hamiltonian or a vector
+field of your own is a function, text, or an expression of SymPy: see `system`. Coefficients, exponents and
 trajectories are NumPy arrays, read-only. Mistakes are raised as subclasses of `Error`, with the
 text that the command prints. Long work lets other threads run and ends within a second of Ctrl-C.
 """
@@ -28,6 +28,7 @@ from .relative_motion import (Assignment, Motion, Separation, Transfers, Validit
                               transfer, validity)
 from .relative_states import RelativeStates
 from .results import AlongTime, Nominal, Result, Run, StudyResult, load, run
+from .systems import System, system
 from .trajectory import Trajectory, trajectory
 from .uncertainty import Moments, Uncertainty, polynomial_moments, uncertainty
 
@@ -35,10 +36,10 @@ __all__ = [
     "AlongTime", "Assignment", "Bounded", "Collisions", "Error", "Event", "ExistingFileError",
     "FrozenOrbit", "GeneratingFunction", "InputOutputError", "Jet", "ManyJets",
     "MissingFileError", "Moments", "Motion", "Nominal", "NumericalError", "Polynomials",
-    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult",
+    "RelativeStates", "Result", "Run", "SceneError", "Separation", "StudyResult", "System",
     "TooLargeError", "Trajectory", "Transfers", "Uncertainty", "Units", "UsageError",
     "Validity", "__version__", "assign", "bounded", "collision_probability",
     "elements_of_states", "event", "load", "mean_states", "motion", "orbit", "osculating_states",
     "poincare", "polynomial_moments", "polynomials", "propagate_many", "run",
-    "states_of_elements", "trajectory", "transfer", "uncertainty", "validity",
+    "states_of_elements", "system", "trajectory", "transfer", "uncertainty", "validity",
 ]

@@ -223,6 +223,7 @@ std::string summary_json(const PropagationResult& result) {
                {"nominal_file", nominal_file_json(scene)},
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
+  if (!scene.system.own_names.empty()) json["state_names"] = scene.system.own_names;
   if (scene.start_time != ClockTime::epoch()) {
     json["start_canonical"] = scene.start_time.in<double>();
   }

@@ -58,6 +58,8 @@ class TableReader {
   }
 
   bool has(std::string_view key) const { return table_->contains(key); }
+  /// The table's keys in the order of the text, for a table whose user chooses them.
+  std::vector<std::string> keys() const;
   /// Whether an unknown key of the table, which has been refused, may be a misspelling of this one.
   bool is_misspelt(std::string_view key) const {
     return errors_ != nullptr && errors_->is_excused(path_, key);

@@ -44,6 +44,17 @@ std::string remedy_for(std::string_view name, const std::vector<std::string_view
 
 }  // namespace
 
+std::vector<std::string> TableReader::keys() const {
+  std::vector<const toml::key*> all;
+  for (const auto& [key, node] : *table_) all.push_back(&key);
+  std::stable_sort(all.begin(), all.end(), [](const toml::key* a, const toml::key* b) {
+    return a->source().begin < b->source().begin;
+  });
+  std::vector<std::string> names;
+  for (const toml::key* key : all) names.emplace_back(key->str());
+  return names;
+}
+
 void TableReader::check_keys(const KnownKeys& known) const {
   for (const SceneSource::AbsentKey& absent : source_->absent_keys) {
     const std::vector<std::string_view> names =

@@ -120,18 +120,18 @@ std::vector<SystemDescription> describe_systems() {
                        .least = 1,
                        .most = 4}},
        .make = [](const SystemSettings& s,
-                  double) { return fermi_pasta_ulam(s.omega_rad_per_s, s.pairs); }}};
-}
-
-SystemDescription describe_own_system() {
-  return {.model = SystemModel::own,
-          .name = "own",
-          .help = "a Hamiltonian of the C++ user",
-          .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
-          .degrees_of_freedom_of = [](const SystemSettings& s) { return s.own_degrees_of_freedom; },
-          .make = [](const SystemSettings&, double) -> DynamicalSystem {
-            throw Error(ErrorKind::usage, "an own system is made by its user: Scene::own_system");
-          }};
+                  double) { return fermi_pasta_ulam(s.omega_rad_per_s, s.pairs); }},
+      {.model = SystemModel::own,
+       .name = "own",
+       .help = "written in the scene: coordinates, momenta and hamiltonian, or states and "
+               "vector_field; parameters, definitions",
+       .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
+       .degrees_of_freedom_of = [](const SystemSettings& s) { return s.own_degrees_of_freedom; },
+       .make = [](const SystemSettings& s, double) -> DynamicalSystem {
+         if (s.own_text) return make_system("own", *s.own_text);
+         throw Error(ErrorKind::usage,
+                     "an own system without a text is made by its user: Scene::own_system");
+       }}};
 }
 
 }  // namespace
@@ -142,15 +142,13 @@ const std::vector<SystemDescription>& all_systems() {
 }
 
 const SystemDescription& description_of(SystemModel model) {
-  static const SystemDescription own = describe_own_system();
-  return model == SystemModel::own ? own : all_systems().at(static_cast<std::size_t>(model));
+  return all_systems().at(static_cast<std::size_t>(model));
 }
 
 const std::vector<std::string_view>& model_names() {
   static const std::vector<std::string_view> names = [] {
     std::vector<std::string_view> result;
     for (const SystemDescription& system : all_systems()) result.push_back(system.name);
-    result.push_back(description_of(SystemModel::own).name);
     return result;
   }();
   return names;
@@ -182,6 +180,7 @@ std::size_t degrees_of_freedom_of(const SystemSettings& settings) {
 }
 
 std::vector<std::string_view> variable_names(const SystemSettings& settings) {
+  if (!settings.own_names.empty()) return {settings.own_names.begin(), settings.own_names.end()};
   return variable_names(settings.model, degrees_of_freedom_of(settings));
 }
 

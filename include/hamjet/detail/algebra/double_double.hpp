@@ -183,7 +183,12 @@ HAMJET_DOUBLE_DOUBLE_FUNCTION(exp)
 HAMJET_DOUBLE_DOUBLE_FUNCTION(log)
 HAMJET_DOUBLE_DOUBLE_FUNCTION(sin)
 HAMJET_DOUBLE_DOUBLE_FUNCTION(cos)
+HAMJET_DOUBLE_DOUBLE_FUNCTION(sinh)
+HAMJET_DOUBLE_DOUBLE_FUNCTION(cosh)
 #undef HAMJET_DOUBLE_DOUBLE_FUNCTION
+inline DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) {
+  return DoubleDouble(Extended(atan2(static_cast<Extended>(y), static_cast<Extended>(x))));
+}
 inline DoubleDouble pow(const DoubleDouble& x, const DoubleDouble& exponent) {
   return DoubleDouble(Extended(pow(static_cast<Extended>(x), static_cast<Extended>(exponent))));
 }

@@ -282,7 +282,19 @@ HAMJET_PACK_FUNCTION(exp)
 HAMJET_PACK_FUNCTION(log)
 HAMJET_PACK_FUNCTION(sin)
 HAMJET_PACK_FUNCTION(cos)
+HAMJET_PACK_FUNCTION(sinh)
+HAMJET_PACK_FUNCTION(cosh)
 #undef HAMJET_PACK_FUNCTION
+
+template <class Real, int Lanes>
+Pack<Real, Lanes> atan2(const Pack<Real, Lanes>& y, const Pack<Real, Lanes>& x) {
+  Pack<Real, Lanes> result;
+  for (int i = 0; i < Lanes; ++i) {
+    using std::atan2;
+    result.set_lane(i, Real(atan2(y.lane(i), x.lane(i))));
+  }
+  return result;
+}
 
 template <class Real, int Lanes>
 Pack<Real, Lanes> pow(const Pack<Real, Lanes>& x, const Real& exponent) {

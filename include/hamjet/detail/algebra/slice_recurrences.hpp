@@ -92,6 +92,18 @@ void sine_cosine_sum(const SeriesSpace& space, int d, const T* u, T* s, T* c, T*
   interior_product(space, d, scratch, s, c);
 }
 
+/// The sums for s = sinh(u) and c = cosh(u), both with scale 1, are those of sine and cosine: from
+/// E s = c E u and E c = s E u follow s_d = c_0 u_d + sum_(i=1)^(d-1) i/d u_i c_(d-i) and c_d = s_0
+/// u_d + sum i/d u_i s_(d-i).
+
+/// The sum for the angle w of a sine s and a cosine c, with scale 1: from s^2 + c^2 = 1 follows E w
+/// = c E s - s E c, that is w_d = c_0 s_d - s_0 c_d + sum_(i=1)^(d-1) (2i - d)/d s_i c_(d-i).
+template <class Real, class T>
+void angle_sum(const SeriesSpace& space, int d, const T* s, const T* c, T* w, T* scratch) {
+  scale_slices(space, d, s, scratch, [&](int i) { return Real(Real(2 * i - d) / Real(d)); });
+  interior_product(space, d, scratch, c, w);
+}
+
 /// x^exponent: by multiplications and one square root where twice the exponent is a small integer
 /// (as for every power that gravity needs), by the standard pow elsewhere.
 template <class T, class Real>

@@ -52,6 +52,11 @@ class Expression {
   friend Expression log(const Expression& a);
   friend Expression sin(const Expression& a);
   friend Expression cos(const Expression& a);
+  friend Expression sinh(const Expression& a);
+  friend Expression cosh(const Expression& a);
+  /// The angle of a point of the unit circle, from its sine and cosine: in (-pi, pi] where it
+  /// starts, and analytic everywhere. The caller sees to it that sine^2 + cosine^2 = 1.
+  friend Expression angle(const Expression& sine, const Expression& cosine);
 
   /// D^orders U at a position, where `orders` are those of differentiation by x, y and z.
   friend Expression field_value(const std::shared_ptr<const LocalField>& field,
@@ -71,6 +76,17 @@ class Expression {
   Extended constant_ = 0;
 };
 
+// Functions made of those that are recorded; each is exact, and as accurate as its derivatives are
+// bounded.
+Expression tan(const Expression& a);
+Expression tanh(const Expression& a);
+/// The inverse functions are angles: of the sine a and the cosine sqrt((1 - a)(1 + a)), or the other
+/// way round; of a / sqrt(1 + a^2) and 1 / sqrt(1 + a^2).
+Expression asin(const Expression& a);
+Expression acos(const Expression& a);
+Expression atan(const Expression& a);
+/// The angle of the point (x, y) other than the origin.
+Expression atan2(const Expression& y, const Expression& x);
 Expression field_value(const std::shared_ptr<const LocalField>& field,
                        const std::array<Expression, 3>& position,
                        const std::array<int, 3>& orders = {});
@@ -87,6 +103,9 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   Expression input(std::size_t i) { return {this, i}; }
+  /// A value recorded so far, and its operation.
+  Expression value(std::size_t i) { return {this, i}; }
+  const Operation& operation_of(std::size_t value) const { return operations_[value]; }
   std::vector<Expression> inputs();
 
   /// Records constant + sum of the terms; sums of sums are flattened.
@@ -101,8 +120,10 @@ class Recorder {
   bool is_time(std::size_t value) const { return has_time_ && value + 1 == inputs_; }
   /// Whether a value depends on no variable, see OperationList.
   bool is_number(std::size_t value) const { return is_number_[value]; }
-  /// Records sine and cosine as a pair, because their series need each other.
-  std::pair<Expression, Expression> sine_cosine(std::size_t u);
+  /// Records sine and cosine as a pair, because their series need each other; `sine` may be that of
+  /// hyperbolic ones.
+  std::pair<Expression, Expression> sine_cosine(std::size_t u,
+                                                OperationCode sine = OperationCode::sine);
 
   /// The list that computes these outputs, without operations that none of them needs.
   OperationList finish(std::span<const Expression> outputs) const;

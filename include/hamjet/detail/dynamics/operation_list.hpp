@@ -15,22 +15,36 @@ namespace hamjet {
 
 /// What an operation does; u and v are its operands.
 enum class OperationCode : std::uint8_t {
-  input,          ///< the i-th input
-  linear,         ///< constant + sum of coefficient_k u_k (no terms: a constant)
-  product,        ///< u v
-  square,         ///< u^2
-  quotient,       ///< u / v
-  power,          ///< u^constant
-  exponential,    ///< exp u
-  logarithm,      ///< log u
-  sine,           ///< sin u; v is the cosine of the same u
-  cosine,         ///< cos u; v is the sine of the same u, and stands just before
-  time_function,  ///< a component of a TimeFunction at the time u
-  field,          ///< a sum of derivatives of LocalFields, see FieldPart
+  input,              ///< the i-th input
+  linear,             ///< constant + sum of coefficient_k u_k (no terms: a constant)
+  product,            ///< u v
+  square,             ///< u^2
+  quotient,           ///< u / v
+  power,              ///< u^constant
+  exponential,        ///< exp u
+  logarithm,          ///< log u
+  sine,               ///< sin u; v is the cosine of the same u
+  cosine,             ///< cos u; v is the sine of the same u, and stands just before
+  hyperbolic_sine,    ///< sinh u; v is the hyperbolic cosine of the same u
+  hyperbolic_cosine,  ///< cosh u; v is the hyperbolic sine of the same u, and stands just before
+  angle,              ///< atan2(u, v) of a sine u and a cosine v, where u^2 + v^2 = 1
+  time_function,      ///< a component of a TimeFunction at the time u
+  field,              ///< a sum of derivatives of LocalFields, see FieldPart
   /// (u - u_0) (v - v_0), with u_0 and v_0 the constant terms; only in lists that expand_fields
   /// made
   deviation_product,
 };
+
+/// Whether an operation computes its value from two operands, u and v.
+constexpr bool has_two_operands(OperationCode code) {
+  return code == OperationCode::product || code == OperationCode::quotient ||
+         code == OperationCode::angle;
+}
+
+/// Whether an operation is one of a sine and a cosine, whose series need each other.
+constexpr bool is_of_pair(OperationCode code) {
+  return code >= OperationCode::sine && code <= OperationCode::hyperbolic_cosine;
+}
 
 /// One term of a linear operation.
 struct LinearTerm {
@@ -93,6 +107,7 @@ void for_each_operand(const Operation& o, const Take& take) {
       return;
     case OperationCode::product:
     case OperationCode::quotient:
+    case OperationCode::angle:
     case OperationCode::deviation_product:
       take(o.u);
       take(o.v);

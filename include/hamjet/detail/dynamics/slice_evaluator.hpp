@@ -217,10 +217,13 @@ class SliceEvaluator {
 
   void evaluate_constant_term(const Step& o) {
     const std::size_t i = o.value;
+    using std::atan2;
     using std::cos;
+    using std::cosh;
     using std::exp;
     using std::log;
     using std::sin;
+    using std::sinh;
     const T& u = *value(o.u);
     const T& v = *value(o.v);
     T& w = *value(i);
@@ -254,6 +257,15 @@ class SliceEvaluator {
         break;
       case OperationCode::cosine:
         w = T(cos(u));
+        break;
+      case OperationCode::hyperbolic_sine:
+        w = T(sinh(u));
+        break;
+      case OperationCode::hyperbolic_cosine:
+        w = T(cosh(u));
+        break;
+      case OperationCode::angle:
+        w = T(atan2(u, v));
         break;
       case OperationCode::time_function:
         w = time_value(list_->operations()[i]);
@@ -311,6 +323,14 @@ class SliceEvaluator {
       case OperationCode::cosine:
         propagation_.factor(i, 0) = -*value(o.v);
         propagation_.scale(i) = T(Real(-1));
+        break;
+      case OperationCode::hyperbolic_sine:
+      case OperationCode::hyperbolic_cosine:
+        propagation_.factor(i, 0) = *value(o.v);
+        break;
+      case OperationCode::angle:
+        propagation_.factor(i, 0) = *value(o.v);
+        propagation_.factor(i, 1) = -u;
         break;
     }
   }
@@ -373,12 +393,18 @@ class SliceEvaluator {
         count_product(d);
         break;
       case OperationCode::sine:
+      case OperationCode::hyperbolic_sine:
         sine_cosine_sum<Real>(space, d, u, w, value(o.v), scratch_.data());
         count_product(d);
         count_product(d);
         break;
       case OperationCode::cosine:
+      case OperationCode::hyperbolic_cosine:
         break;  // the sums of the cosine were written with those of its sine
+      case OperationCode::angle:
+        angle_sum<Real>(space, d, u, value(o.v), w, scratch_.data());
+        count_product(d);
+        break;
     }
   }
 

@@ -9,6 +9,7 @@
 #include "hamjet/detail/dynamics/zonal_coefficients.hpp"
 #include "hamjet/detail/studies/earth_settings.hpp"
 #include "hamjet/detail/studies/fields.hpp"
+#include "hamjet/dynamics/system_text.hpp"
 
 namespace hamjet {
 
@@ -22,7 +23,7 @@ enum class SystemModel {
   oscillator_pair,
   spring_pendulum,
   fermi_pasta_ulam,
-  own,  ///< a Hamiltonian of the C++ user, Scene::own_system; the scene of a file cannot name it
+  own,  ///< the user's own, Scene::own_system: made in C++, or written in the scene
 };
 
 /// The models' names in scenes, in the order of the enumeration.
@@ -39,8 +40,9 @@ bool is_orbit(SystemModel model);
 /// for the chain fermi-pasta-ulam, whose length the scene chooses.
 std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model);
 
-/// Names of the variables (q, p), in the order of the state: x, y, z, px, py, pz for an orbit; q, p
-/// for one degree of freedom; else q1, q2, ..., p1, p2, .... `degrees_of_freedom` must be possible.
+/// Names of the variables (q, p) of a model whose scene does not name them, in the order of the
+/// state: x, y, z, px, py, pz for an orbit; q, p for one degree of freedom; else q1, q2, ..., p1,
+/// p2, .... `degrees_of_freedom` must be possible.
 std::vector<std::string_view> variable_names(SystemModel model, std::size_t degrees_of_freedom);
 
 /// The origin of a scene's gravity field, if it comes from a file.
@@ -75,12 +77,17 @@ struct SystemSettings {
   std::optional<GravityFile> gravity_file;
   std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
   std::optional<EarthSettings> earth;      ///< earth
+  std::vector<std::string> own_names;      ///< own: of (q, p); empty for the usual ones
+  std::optional<SystemText> own_text;      ///< own: as the scene writes it
 };
 
+HAMJET_FIELDS(NamedText, name, text)
+HAMJET_FIELDS(SystemText, coordinates, momenta, states, parameters, definitions, hamiltonian,
+              vector_field)
 HAMJET_FIELDS(GravityFile, file, model_name, tide_system, epoch, origin_offset_m)
 HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness_N_per_m,
               second_stiffness_N_per_m, length_m, gravity_m_s2, omega_rad_per_s, pairs,
-              gravity_file, own_degrees_of_freedom, earth)
+              gravity_file, own_degrees_of_freedom, earth, own_names, own_text)
 
 /// The number of degrees of freedom of a system.
 std::size_t degrees_of_freedom_of(const SystemSettings& settings);

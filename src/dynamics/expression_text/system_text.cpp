@@ -1,0 +1,190 @@
+#include "hamjet/dynamics/system_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../../text/printable_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/scene_message.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
+
+namespace hamjet {
+namespace {
+
+[[noreturn]] void fail_part(std::string part, std::string problem) {
+  throw ExpressionTextError(std::move(part), std::move(problem));
+}
+
+/// Checks names by themselves, so that the message is about the list in which they stand.
+void require_names(const std::vector<std::string>& names, const std::string& part) {
+  FunctionText alone;
+  alone.variables = names;
+  try {
+    record_function(alone);
+  } catch (const ExpressionTextError& error) {
+    fail_part(part, error.problem());
+  }
+}
+
+void require_fitting_names(const SystemText& text) {
+  const std::string part = text.is_hamiltonian() ? "coordinates" : "states";
+  const std::vector<std::string>& names = text.is_hamiltonian() ? text.coordinates : text.states;
+  if (names.empty() || names.size() > most_degrees_of_freedom_of_text) {
+    fail_part(part, fmt::format("wrong length, got {}, must be 1 to {}",
+                                counted(names.size(), "name"), most_degrees_of_freedom_of_text));
+  }
+  require_names(names, part);
+  if (!text.is_hamiltonian()) return;
+  if (text.momenta.size() != names.size()) {
+    fail_part("momenta",
+              fmt::format("wrong length, got {}, must be {}, one for each coordinate and "
+                          "in their order",
+                          counted(text.momenta.size(), "name"), names.size()));
+  }
+  require_names(text.variables(), "momenta");
+}
+
+/// The text of what is recorded: of the Hamiltonian, or of the vector field.
+FunctionText function_of(const SystemText& text) {
+  require_fitting_names(text);
+  FunctionText function;
+  function.parameters = text.parameters;
+  function.definitions = text.definitions;
+  if (text.is_hamiltonian()) {
+    function.variables = text.variables();
+    function.outputs = {{"hamiltonian", text.hamiltonian}};
+    return function;
+  }
+  function.variables = text.states;
+  for (const NamedText& line : text.vector_field) {
+    if (std::find(text.states.begin(), text.states.end(), line.name) != text.states.end()) continue;
+    const std::vector<std::string_view> states(text.states.begin(), text.states.end());
+    fail_part("vector_field." + io::printable(line.name),
+              fmt::format("no state, got {}, {}", io::printable(line.name),
+                          io::suggestion(line.name, states)));
+  }
+  for (const std::string& state : text.states) {
+    const auto line =
+        std::find_if(text.vector_field.begin(), text.vector_field.end(),
+                     [&](const NamedText& candidate) { return candidate.name == state; });
+    if (line == text.vector_field.end()) {
+      fail_part("vector_field", fmt::format("incomplete, got nothing for {}, must have the "
+                                            "derivative of every state by the time",
+                                            state));
+    }
+    function.outputs.push_back({"vector_field." + state, line->text});
+  }
+  return function;
+}
+
+OperationList hamiltonian_of(const SystemText& text) {
+  const FunctionText function = function_of(text);
+  OperationList list = record_function(function);
+  if (text.is_hamiltonian()) return list;
+  const std::size_t n = text.states.size();
+  return record(
+      2 * n + (list.has_time() ? 1 : 0),
+      [&](std::span<const Expression> z) {
+        std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+        if (list.has_time()) inputs.push_back(z.back());
+        const std::vector<Expression> field = recorded_outputs(list, inputs);
+        Expression sum(0);
+        for (std::size_t i = 0; i < n; ++i) sum += z[n + i] * field[i];
+        return std::vector<Expression>{sum};
+      },
+      list.has_time());
+}
+
+/// The system with the rotation of the first plane of coordinates under which it does not change,
+/// if there is one.
+DynamicalSystem with_found_rotation(DynamicalSystem system) {
+  const std::size_t n = system.degrees_of_freedom;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      try {
+        return with_rotation(system, {{i, j}});
+      } catch (const Error&) {
+        // The vector field changes under this rotation.
+      }
+    }
+  }
+  return system;
+}
+
+}  // namespace
+
+std::vector<std::string> SystemText::variables() const {
+  std::vector<std::string> names = is_hamiltonian() ? coordinates : states;
+  if (is_hamiltonian()) {
+    names.insert(names.end(), momenta.begin(), momenta.end());
+  } else {
+    for (const std::string& state : states) names.push_back("lambda_" + state);
+  }
+  return names;
+}
+
+DynamicalSystem make_system(std::string name, const SystemText& text) {
+  return with_found_rotation(make_system(std::move(name), hamiltonian_of(text)));
+}
+
+void require_finite_at(const SystemText& text, const DynamicalSystem& system,
+                       std::span<const double> state, double time) {
+  const FunctionText function = function_of(text);
+  std::vector<Extended> point(
+      state.begin(), state.begin() + static_cast<std::ptrdiff_t>(function.variables.size()));
+  if (record_function(function).has_time()) point.emplace_back(time);
+  try {
+    evaluate_function(function, point);
+  } catch (const ExpressionTextError& error) {
+    fail_part(error.part(), "at the start: " + error.problem());
+  }
+  DifferentiableFunction<double> field(system.vector_field);
+  field.evaluate(state, time);
+  const std::vector<std::string> names = text.variables();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::isfinite(field.value(i))) continue;
+    fail_part(
+        text.is_hamiltonian() ? "hamiltonian" : "vector_field",
+        fmt::format("no finite equations of motion at the start, got {} for the derivative of "
+                    "{} by the time, must be finite there",
+                    field.value(i), names[i]));
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> likely_mistakes(const SystemText& text,
+                                                                 const DynamicalSystem& system) {
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const std::string& name : unused_names(function_of(text))) {
+    found.emplace_back(name, "nothing uses it");
+  }
+  if (!text.is_hamiltonian()) return found;
+  const OperationList& field = system.vector_field;
+  const std::size_t n = system.degrees_of_freedom;
+  bool moves_by_momenta = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    moves_by_momenta = moves_by_momenta || field.dependencies(field.outputs()[i]) >> n != 0;
+    if (!output_vanishes(field, i)) continue;
+    found.emplace_back("hamiltonian", fmt::format("does not depend on {}, so that {} stands still",
+                                                  text.momenta[i], text.coordinates[i]));
+  }
+  if (!moves_by_momenta) {
+    found.emplace_back("hamiltonian",
+                       "is linear in the momenta, so that velocities do not depend on them");
+  }
+  return found;
+}
+
+SystemText system_text(const DynamicalSystem& system, std::vector<std::string> coordinates,
+                       std::vector<std::string> momenta) {
+  SystemText text;
+  text.coordinates = std::move(coordinates);
+  text.momenta = std::move(momenta);
+  FunctionText function = print_list(system.hamiltonian, text.variables(), {"hamiltonian"});
+  text.definitions = std::move(function.definitions);
+  text.hamiltonian = std::move(function.outputs[0].text);
+  return text;
+}
+
+}  // namespace hamjet

@@ -1,0 +1,151 @@
+#include "hamjet/dynamics/system_text.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "support/errors.hpp"
+#include "support/flow.hpp"
+
+namespace hamjet {
+namespace {
+
+/// Zonal gravity to J4 as a user writes it.
+SystemText written_zonals() {
+  SystemText text;
+  text.coordinates = {"x", "y", "z"};
+  text.momenta = {"px", "py", "pz"};
+  text.parameters = {{"R", "0.9"}, {"J2", "1e-3"}, {"J3", "-2e-6"}, {"J4", "-1.5e-6"}};
+  text.definitions = {{"r", "sqrt(x^2 + y^2 + z^2)"},
+                      {"s", "z/r"},
+                      {"P2", "(3*s^2 - 1)/2"},
+                      {"P3", "(5*s^3 - 3*s)/2"},
+                      {"P4", "(35*s^4 - 30*s^2 + 3)/8"}};
+  text.hamiltonian =
+      "(px^2 + py^2 + pz^2)/2 - 1/r*(1 - J2*(R/r)^2*P2 - J3*(R/r)^3*P3 - J4*(R/r)^4*P4)";
+  return text;
+}
+
+TEST(SystemText, HasTheFieldOfTheSystemByName) {
+  const DynamicalSystem written = make_system("written", written_zonals());
+  const DynamicalSystem named = zonal_gravity(
+      {1, Extended("0.9").convert_to<double>(), {{2, 1e-3}, {3, -2e-6}, {4, -1.5e-6}}});
+  EXPECT_TRUE(written.second_order);
+  // Both know the rotation about z.
+  EXPECT_EQ(written.rotated_planes, named.rotated_planes);
+  const std::vector<std::vector<double>> states = {{1, 0.2, -0.3, 0.1, 0.9, 0.4},
+                                                   {-0.2, 0.7, 0.9, 0.8, -0.1, 0.2}};
+  for (const auto& state : states) {
+    const auto a = test::evaluate_list(written.vector_field, state);
+    const auto b = test::evaluate_list(named.vector_field, state);
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 4e-15) << i;
+  }
+}
+
+// The powers of 1/r and the polynomials of z/r are merged, so that the force of a system as it is
+// usually written needs as many series as that of the system by name.
+TEST(SystemText, CostsAsMuchAsTheSystemByName) {
+  SystemText text = written_zonals();
+  text.hamiltonian = "(px^2 + py^2 + pz^2)/2 - 1/r*(1 - J2*(R/r)^2*P2)";
+  const DynamicalSystem written = make_system("written", text);
+  const DynamicalSystem named = zonal_gravity({1, 0.9, {{2, 1e-3}}});
+  EXPECT_EQ(written.evaluated_list().nonlinear_operations(),
+            named.evaluated_list().nonlinear_operations());
+}
+
+// A vector field is the part of its lift where the adjoint variables vanish.
+TEST(SystemText, LiftsAVectorField) {
+  SystemText text;
+  text.states = {"u", "v", "w"};  // Lorenz's
+  text.parameters = {{"rho", "28"}};
+  text.vector_field = {{"v", "u*(rho - w) - v"}, {"u", "10*(v - u)"}, {"w", "u*v - 8/3*w"}};
+  const DynamicalSystem system = make_system("Lorenz", text);
+  EXPECT_EQ(system.degrees_of_freedom, 3U);
+  EXPECT_EQ(text.variables(),
+            (std::vector<std::string>{"u", "v", "w", "lambda_u", "lambda_v", "lambda_w"}));
+  const auto slopes =
+      test::evaluate_list(system.vector_field, std::vector<double>{1, 2, 3, 0, 0, 0});
+  const std::vector<double> expected = {10, 23, -6, 0, 0, 0};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_DOUBLE_EQ(slopes[i], expected[i]) << i;
+}
+
+TEST(SystemText, ComesBackFromItsOwnText) {
+  const DynamicalSystem system = zonal_gravity({1, 0.9, {{2, 1e-3}, {3, -2e-6}}});
+  const SystemText text = system_text(system, {"x", "y", "z"}, {"px", "py", "pz"});
+  const DynamicalSystem again = make_system("again", text);
+  EXPECT_TRUE(is_same_list(again.hamiltonian, system.hamiltonian));
+}
+
+void expect_refused(const std::vector<std::string>& words,
+                    const std::function<void(SystemText&)>& change) {
+  SystemText text = written_zonals();
+  change(text);
+  test::expect_error([&] { make_system("written", text); }, ErrorKind::usage, words, "");
+}
+
+TEST(SystemText, TellsMistakes) {
+  expect_refused({"momenta: ", "got 2 names, must be 3"},
+                 [](SystemText& t) { t.momenta.pop_back(); });
+  expect_refused({"coordinates: ", "got 0 names"}, [](SystemText& t) { t.coordinates.clear(); });
+  expect_refused({"coordinates: ", "given twice", "got x"},
+                 [](SystemText& t) { t.coordinates[1] = "x"; });
+  expect_refused({"momenta: ", "given twice", "got x"}, [](SystemText& t) { t.momenta[1] = "x"; });
+  expect_refused({"coordinates: ", "t is the time"}, [](SystemText& t) { t.coordinates[0] = "t"; });
+  expect_refused({"hamiltonian: ", "empty"}, [](SystemText& t) { t.hamiltonian.clear(); });
+  expect_refused({"parameters.J2: ", "cut off"},
+                 [](SystemText& t) { t.parameters[1].text = "1e-3*"; });
+  expect_refused({"definitions.P2: ", "unknown name", "got \"S\""},
+                 [](SystemText& t) { t.definitions[2].text = "3*S^2"; });
+  const auto field = [](const std::vector<NamedText>& lines) {
+    return [lines](SystemText& t) {
+      t = SystemText{};
+      t.states = {"u", "v"};
+      t.vector_field = lines;
+    };
+  };
+  expect_refused({"vector_field: ", "nothing for v"}, field({{"u", "v"}}));
+  expect_refused({"vector_field.w: ", "no state"}, field({{"u", "v"}, {"v", "u"}, {"w", "1"}}));
+  expect_refused({"vector_field.v: ", "unknown name"}, field({{"u", "v"}, {"v", "x"}}));
+}
+
+TEST(SystemText, TellsWhereTheStartHasNoValue) {
+  const SystemText text = written_zonals();
+  const DynamicalSystem system = make_system("written", text);
+  test::expect_error(
+      [&] {
+        require_finite_at(text, system, std::vector<double>{0, 0, 0, 1, 0, 0});
+      },
+      ErrorKind::usage, {"definitions.s: ", "at the start", "division by zero"}, "");
+  SystemText root;
+  root.coordinates = {"x"};
+  root.momenta = {"p"};
+  root.hamiltonian = "p^2/2 + sqrt(x)";
+  test::expect_error(
+      [&] {
+        require_finite_at(root, make_system("root", root), std::vector<double>{0, 1});
+      },
+      ErrorKind::usage, {"hamiltonian: ", "no finite equations of motion", "derivative of p"}, "");
+}
+
+TEST(SystemText, WarnsOfLikelyMistakes) {
+  SystemText text;
+  text.coordinates = {"x", "y"};
+  text.momenta = {"px", "py"};
+  text.parameters = {{"a", "1"}};
+  text.hamiltonian = "px^2/2 + x^2 + y^2";
+  const auto found = likely_mistakes(text, make_system("flat", text));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0], (std::pair<std::string, std::string>("parameters.a", "nothing uses it")));
+  EXPECT_EQ(found[1].second, "does not depend on py, so that y stands still");
+  text.parameters.clear();
+  text.hamiltonian = "px*y + py*x";
+  const auto linear = likely_mistakes(text, make_system("linear", text));
+  ASSERT_EQ(linear.size(), 1U);
+  EXPECT_NE(linear[0].second.find("linear in the momenta"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hamjet

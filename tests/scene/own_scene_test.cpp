@@ -1,0 +1,225 @@
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "hamjet/studies/comparison.hpp"
+#include "hamjet/studies/propagation.hpp"
+#include "scene_samples.hpp"
+
+// Systems that scenes write themselves: how they are read, and the shipped ones against published
+// numbers and closed forms.
+
+namespace hamjet::io {
+namespace {
+
+const std::filesystem::path own = std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes/own";
+
+const std::string pendulum = R"T(schema = 1
+title = "pendulum"
+[system]
+model = "own"
+coordinates = ["q"]
+momenta = ["p"]
+parameters = { g = 2.0, l = "1/4" }
+definitions = { swing = "g*l*cos(q)" }
+hamiltonian = "p^2/2 - swing"
+[units]
+length_km = 2
+time_s = 3
+[nominal]
+coordinates = [1.5]
+momenta = [0.25]
+[jet]
+order = 2
+duration_s = 6
+)T";
+
+TEST(OwnScene, IsRead) {
+  const Scene scene = parse_scene(pendulum, "file.toml");
+  EXPECT_EQ(scene.system.model, SystemModel::own);
+  EXPECT_EQ(scene.system.own_names, (std::vector<std::string>{"q", "p"}));
+  EXPECT_EQ(scene.nominal, (std::vector<double>{1.5, 0.25}));
+  EXPECT_DOUBLE_EQ(scene.duration, 2);
+  EXPECT_EQ(scene.units.length_km, 2);
+  EXPECT_EQ(scene.units.time_s, 3);
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_TRUE(scene.own_system);
+  EXPECT_EQ(scene.own_system->degrees_of_freedom, 1U);
+  // Its key holds the text, so that kept results of another system are not taken for its own.
+  const Scene other = parse_scene(changed(pendulum, "1/4", "1/5"), "file.toml");
+  EXPECT_NE(reference_key(scene, 2), reference_key(other, 2));
+}
+
+TEST(OwnScene, TakesChangesOfParameters) {
+  const Scene scene = parse_scene(pendulum, "file.toml", {{"system.parameters.g", "4"}});
+  const Scene same = parse_scene(changed(pendulum, "g = 2.0", "g = 4"), "file.toml");
+  EXPECT_EQ(reference_key(scene, 2), reference_key(same, 2));
+}
+
+TEST(OwnScene, TellsMistakesWithFileKeyAndColumn) {
+  const auto refuse = [](const std::string& from, const std::string& to,
+                         const std::vector<std::string>& words) {
+    expect_scene_error(changed(pendulum, from, to), words);
+  };
+  refuse("p^2/2 - swing", "p^2/2 - swings",
+         {"file.toml:9:", "system.hamiltonian: unknown name", "got \"swings\" at column 9"});
+  refuse("g*l*cos(q)", "g*l*cos q",
+         {"file.toml:8:", "system.definitions.swing: a function without parentheses"});
+  refuse("\"1/4\"", "\"1/0\"", {"file.toml:7:", "system.parameters.l: division by zero"});
+  refuse("\"1/4\"", "true", {"system.parameters.l: wrong type, got true"});
+  refuse("momenta = [\"p\"]\n", "", {"system.momenta: missing"});
+  refuse("momenta = [\"p\"]", "momenta = [\"p\", \"s\"]", {"system.momenta: ", "must be 1"});
+  refuse("coordinates = [\"q\"]", "states = [\"q\"]", {"system.states: beside a hamiltonian"});
+  refuse("hamiltonian = \"p^2/2 - swing\"\n", "", {"system: missing", "hamiltonian, vector_field"});
+  refuse("[nominal]\ncoordinates", "[nominal]\nposition_m", {"nominal.position_m: "});
+  refuse("coordinates = [1.5]", "coordinates = [1.5, 2]", {"nominal.coordinates: wrong length"});
+  refuse("time_s = 3\n", "", {"units.time_s: missing"});
+  refuse("- swing", "- swing/(q - 1.5)",
+         {"system.hamiltonian: at the start: division by zero", "got \"/\""});
+  refuse("- swing", "- swing + sqrt(p - 1)", {"no finite real value", "it is given -0.75"});
+  refuse("duration_s = 6", "duration_orbits = 6", {"duration_orbits"});
+}
+
+TEST(OwnScene, WarnsOfLikelyMistakes) {
+  const Scene scene = parse_scene(changed(pendulum, "- swing", "- cos(q)"), "file.toml");
+  ASSERT_EQ(scene.warnings.size(), 3U);
+  EXPECT_EQ(scene.warnings[0].find("warning: file.toml:7:"), 0U) << scene.warnings[0];
+  EXPECT_NE(scene.warnings[2].find("system.definitions.swing: nothing uses it"), std::string::npos);
+}
+
+/// The result of a shipped scene, whose runs and checks must be good.
+PropagationResult computed(const std::string& name) {
+  PropagationResult result = propagate(read_scene(own / name));
+  EXPECT_EQ(result.runs.size(), 1U);
+  EXPECT_EQ(result.runs.at(0).failure, "");
+  EXPECT_TRUE(result.runs.at(0).failed_checks.empty());
+  return result;
+}
+
+Matrix<double> linear_part(const PropagationResult& result) {
+  const auto& jet = result.runs.at(0).jet;
+  const auto n = static_cast<Eigen::Index>(jet.size());
+  Matrix<double> matrix(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      matrix(i, j) =
+          static_cast<double>(jet[static_cast<std::size_t>(i)][1 + static_cast<std::size_t>(j)]);
+    }
+  }
+  return matrix;
+}
+
+// The published orbit closes with the published period (R. Zanetti and others give its state to 36
+// digits for a mass ratio of 81.30059); the jet's linear part has a pair of eigenvalues 1 then.
+TEST(OwnScene, TheHaloOrbitOfTheMoonClosesAfterItsPeriod) {
+  const PropagationResult result = computed("earth-moon-nrho.toml");
+  const std::vector<double>& start = result.scene.nominal;
+  const std::vector<double>& end = result.runs.at(0).nominal_final;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(end[i], start[i], 1e-10) << i;
+  EXPECT_NEAR(result.scene.duration * result.scene.units.time_s / 86400, 6.562, 5e-4);
+  const Matrix<double> monodromy = linear_part(result);
+  EXPECT_NEAR(monodromy.determinant(), 1, 1e-6);
+  // The flow's direction comes back: M f = f, with the period's error in the difference.
+  const double mu = 1 / 82.30059;
+  const double x = start[0], z = start[2], py = start[4];
+  const double to_earth = std::hypot(x + mu, z), to_moon = std::hypot(x - 1 + mu, z);
+  const double a = (1 - mu) / std::pow(to_earth, 3), b = mu / std::pow(to_moon, 3);
+  Vector<double> f(6);
+  f << 0, py - x, 0, py - a * (x + mu) - b * (x - 1 + mu), 0, -(a + b) * z;
+  EXPECT_LE((monodromy * f - f).norm(), 1e-7 * monodromy.norm());
+}
+
+// The motion about L2 of Hill's problem is linear with c = 4: the rates in the plane are sqrt(2
+// sqrt 7
+// + 1), real, and sqrt(2 sqrt 7 - 1), imaginary; across it 2.
+TEST(OwnScene, HillsProblemHasItsRatesAtItsEquilibrium) {
+  const PropagationResult result = computed("hill.toml");
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(result.runs.at(0).nominal_final[i], result.scene.nominal[i], 1e-14);
+  }
+  const Matrix<double> step = linear_part(result);
+  const double real = std::sqrt(2 * std::sqrt(7.0) + 1), turn = std::sqrt(2 * std::sqrt(7.0) - 1);
+  EXPECT_NEAR(step.trace(), 2 * std::cosh(real) + 2 * std::cos(turn) + 2 * std::cos(2.0), 1e-9);
+  EXPECT_NEAR((step * step).trace(),
+              2 * std::cosh(2 * real) + 2 * std::cos(2 * turn) + 2 * std::cos(4.0), 1e-8);
+  ASSERT_EQ(result.runs.at(0).kinds.size(), 1U);
+  EXPECT_TRUE(result.runs.at(0).kinds[0].generating_function);
+}
+
+// On the axis y'' = -y + y^2. With the energy 1/12 = y'^2/2 + y^2/2 - y^3/3 and its roots e1 < 0 <
+// e2 < e3, y = e1 + (e2 - e1) sn^2, and the period is 4 K(k)/sqrt(2 (e3 - e1)/3), k^2 = (e2 -
+// e1)/(e3 - e1). The roots are (1 - sqrt 3)/2, 1/2 and (1 + sqrt 3)/2.
+TEST(OwnScene, HenonAndHeilesOnTheAxisHasItsPeriod) {
+  Scene scene = read_scene(own / "henon-heiles.toml");
+  const double s = std::sqrt(3.0);
+  const double k = std::sqrt((s / 2) / s);
+  scene.duration = 2 * boost::math::ellint_1(k) / std::sqrt(s / 6);
+  scene.order = 2;
+  const PropagationResult result = propagate(scene);
+  ASSERT_EQ(result.runs.at(0).failure, "");
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(result.runs.at(0).nominal_final[i], scene.nominal[i], 1e-9) << i;
+  }
+}
+
+TEST(OwnScene, ThePendulumHasItsPeriod) {
+  Scene scene = read_scene(own / "pendulum.toml");
+  scene.duration = 4 * boost::math::ellint_1(std::sin(scene.nominal[0] / 2));
+  scene.kinds.reset();
+  const PropagationResult result = propagate(scene);
+  ASSERT_EQ(result.runs.at(0).failure, "");
+  EXPECT_NEAR(result.runs.at(0).nominal_final[0], scene.nominal[0], 1e-10);
+  EXPECT_NEAR(result.runs.at(0).nominal_final[1], 0, 1e-10);
+}
+
+// A particle that is pushed by cos(t): q'' = cos(t) from rest is at 1 - cos(t), and its jet is that
+// of a free one.
+TEST(OwnScene, TakesTheTime) {
+  const Scene scene = parse_scene(R"([system]
+model = "own"
+coordinates = ["q"]
+momenta = ["p"]
+hamiltonian = "p^2/2 - q*cos(t)"
+[nominal]
+coordinates = [0]
+momenta = [0]
+[jet]
+order = 2
+duration_canonical = 2
+)",
+                                  "file.toml");
+  const PropagationResult result = propagate(scene);
+  ASSERT_EQ(result.runs.at(0).failure, "");
+  EXPECT_NEAR(result.runs.at(0).nominal_final[0], 1 - std::cos(2.0), 1e-11);
+  EXPECT_NEAR(result.runs.at(0).nominal_final[1], std::sin(2.0), 1e-11);
+  EXPECT_NEAR(static_cast<double>(result.runs.at(0).jet[0][2]), 2, 1e-12);
+}
+
+// x' = v, v' = -x - 2c v has the flow of a damped oscillator, and its jet is in the states alone.
+TEST(OwnScene, AVectorFieldHasItsJetInTheStates) {
+  const Scene scene = parse_scene(R"([system]
+model = "own"
+states = ["x", "v"]
+parameters = { c = 0.1 }
+vector_field = { x = "v", v = "-x - 2*c*v" }
+[nominal]
+states = [1, 0]
+[jet]
+order = 2
+duration_canonical = 3
+)",
+                                  "file.toml");
+  EXPECT_EQ(scene.variables, (std::vector<std::size_t>{0, 1}));
+  const PropagationResult result = propagate(scene);
+  ASSERT_EQ(result.runs.at(0).failure, "");
+  EXPECT_TRUE(result.runs.at(0).failed_checks.empty());
+  const double w = std::sqrt(0.99), t = 3, decay = std::exp(-0.3);
+  const double x = decay * (std::cos(w * t) + 0.1 / w * std::sin(w * t));
+  const double v = -decay / w * std::sin(w * t);
+  EXPECT_NEAR(result.runs.at(0).nominal_final[0], x, 1e-11);
+  EXPECT_NEAR(result.runs.at(0).nominal_final[1], v, 1e-11);
+  EXPECT_NEAR(static_cast<double>(result.runs.at(0).jet[0][2]), decay / w * std::sin(w * t), 1e-11);
+}
+
+}  // namespace
+}  // namespace hamjet::io
