@@ -47,8 +47,8 @@ headers=$({
   [ -z "$other" ] || ninja -C "$other" -t deps
 } | awk -v objects="$objects" '
   BEGIN { count = split(objects, list, "\n"); for (i in list) own[list[i]] = 1
-          own["src/CMakeFiles/hamjet.dir/cmake_pch.hxx.gch"] = 1
-          own["src/CMakeFiles/hamjet_shell.dir/cmake_pch.hxx.gch"] = 1 }
+          own["src/CMakeFiles/precompiled_headers.dir/cmake_pch.hxx.gch"] = 1
+          own["src/CMakeFiles/precompiled_shell_headers.dir/cmake_pch.hxx.gch"] = 1 }
   /^[^ ].*: #deps/ { taken = sub(/: #deps.*/, "") && ($0 in own) }
   /^ / && taken { sub(/^ */, ""); print }' | sort -u)
 [ "$(grep -c '^/usr/include/c++/' <<<"$headers")" -gt 100 ] || fail "the headers were not seen"
