@@ -27,9 +27,11 @@ struct NormalFactor {
   std::array<double, 3> white;
   std::optional<double> speed = {};
 
-  double log_value() const {
+  double log_value() const { return log_value(speed ? log_mean_positive(*speed) : 0); }
+  /// The same, where the logarithm of the speed's factor is known already.
+  double log_value(double of_speed) const {
     return log_amplitude - (white[0] * white[0] + white[1] * white[1] + white[2] * white[2]) / 2 +
-           (speed ? log_mean_positive(*speed) : 0);
+           of_speed;
   }
 };
 
@@ -63,12 +65,11 @@ class BoxDensity {
     Box box;
     double log_even = 0;  ///< logarithm of the added fraction of the bound, which is constant
     double log_mean = 0;  ///< logarithm of the mean of the density
+    double log_mass = 0;  ///< logarithm of the mass of both
     std::array<double, 3> slope{};  ///< slope of the density's logarithm across the whole box
     double priority = 0;            ///< logarithm of the bound on the mass that is missed
     std::size_t first_child = 0;    ///< 0 marks a leaf
     int dimension = 0;              ///< dimension along which the box is, or would be, halved
-
-    double log_mass() const;
   };
   static Node made(const Box& box, const Density& density);
   /// Whether further halving would gain little.
