@@ -9,7 +9,6 @@
 
 #include "../../charts/plane_elements.hpp"
 #include "../../poincare/nodal_flight.hpp"
-#include "../exact_flow.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
@@ -30,6 +29,7 @@ CompanyFlight::CompanyFlight(const Scene& scene, const FlowSection<double>& sect
                              double mean_period)
     : section_(section),
       system_(make_system(scene)),
+      flights_(system_),
       units_(metric_units(scene)),
       mu_(orbit_field(scene).mu),
       nodal_period_(nodal_period),
@@ -63,7 +63,7 @@ double CompanyFlight::sine() const { return std::sqrt((1 - cosine_) * (1 + cosin
 double CompanyFlight::mean_motion() const { return 2 * std::numbers::pi / mean_period_; }
 
 std::vector<double> CompanyFlight::flown_on(const std::vector<double>& state, double time) const {
-  return exact_flow(system_, state, time);
+  return flights_.end(state, time);
 }
 
 /// One revolution in equal steps of the chief's eccentric anomaly, so that its pericentre has as

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "../flights/nearby_flights.hpp"
 #include "bounded_formation.hpp"
 #include "hamjet/charts/flow_section.hpp"
 
@@ -54,6 +55,7 @@ class CompanyFlight {
 
   const FlowSection<double>& section_;
   SharedSystem system_;
+  mutable NearbyFlights flights_;
   MetricUnits units_;
   double mu_;
   double nodal_period_;
