@@ -201,6 +201,13 @@ BoxDensity::BoxDensity(const std::vector<Box>& boxes, const Density& density, st
       queue.push({nodes_.back().priority, nodes_.size() - 1});
     }
   }
+  branches_.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    const auto dimension = static_cast<std::size_t>(node.dimension);
+    const double middle = node.first_child == 0 ? 0 : nodes_[node.first_child].box.high[dimension];
+    branches_.push_back({middle, static_cast<std::uint32_t>(node.first_child),
+                         static_cast<std::uint32_t>(dimension)});
+  }
   log_mass_ = nothing;
   double largest = nothing;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -236,20 +243,20 @@ std::optional<double> BoxDensity::log_density(const std::array<double, 3>& point
       std::upper_bound(nodes_.begin(), end, point[0],
                        [](double x, const Node& node) { return x < node.box.low[0]; });
   if (after == nodes_.begin()) return {};
-  const Node* node = &*(after - 1);
-  if (point[0] > node->box.high[0]) return {};
-  while (node->first_child != 0) {
-    const Node& lower = nodes_[node->first_child];
-    const auto dimension = static_cast<std::size_t>(node->dimension);
-    node = point[dimension] < lower.box.high[dimension] ? &lower : &lower + 1;
+  auto place = static_cast<std::size_t>(after - nodes_.begin()) - 1;
+  if (point[0] > nodes_[place].box.high[0]) return {};
+  while (branches_[place].first_child != 0) {
+    const Branch& branch = branches_[place];
+    place = branch.first_child + (point[branch.dimension] < branch.middle ? 0 : 1);
   }
-  if (node->log_even == nothing) return {};
-  double tilt = node->log_mean;
+  const Node& node = nodes_[place];
+  if (node.log_even == nothing) return {};
+  double tilt = node.log_mean;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double length = node->box.high[i] - node->box.low[i];
-    tilt += log_tilt((point[i] - node->box.low[i]) / length, node->slope[i]);
+    const double length = node.box.high[i] - node.box.low[i];
+    tilt += log_tilt((point[i] - node.box.low[i]) / length, node.slope[i]);
   }
-  return log_sum(node->log_even, tilt) - log_mass_;
+  return log_sum(node.log_even, tilt) - log_mass_;
 }
 
 }  // namespace hamjet
