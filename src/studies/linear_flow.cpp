@@ -23,42 +23,89 @@ namespace {
 
 using StateTransition = LinearFlow::StateTransition;
 
-/// A linear flow from a state, and the state that it reaches.
+/// A linear flow from a state, and the state that it reaches after a time.
 struct LinearArc {
+  double time = 0;
   std::vector<double> state;
   StateTransition matrix;
 };
 
-/// The jet to a relative local error of 1e-14. Most arcs are so short that one step suffices, which
-/// saves the choice of steps, several times the cost of the step.
-FlowJet<double> precise_jet(const FlowProblem<double>& flow) {
-  constexpr double local_error = 1e-14;
-  IntegrationStatistics statistics;
-  GaussSettings one_step;
-  one_step.step = std::abs(flow.duration);
-  one_step.estimates_step_error = true;
-  try {
-    FlowJet<double> jet = integrate_gauss<double>(flow, one_step, statistics);
-    if (statistics.largest_step_error && *statistics.largest_step_error <= local_error) return jet;
-  } catch (const Error& error) {
-    // A step that is too long may have no solution.
-    if (error.kind() != ErrorKind::numerical) throw;
-  }
-  GaussSettings adaptive;
-  adaptive.tolerance = local_error;
-  return integrate_gauss<double>(flow, adaptive, statistics);
-}
+/// The largest relative local error.
+constexpr double local_error = 1e-14;
 
-LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
-                     const std::vector<double>& start, double duration) {
+/// A linear flow from a state, for integration.
+FlowProblem<double> linear_problem(const ComputedProblem& problem, const SpacePointer& space,
+                                   const std::vector<double>& start, double duration) {
   std::vector<std::size_t> variables(start.size());
   std::iota(variables.begin(), variables.end(), std::size_t{0});
   FlowProblem<double> flow{problem.system, space, variables, start, duration};
-  // One step of order 1 is cheaper than leaving a symmetry out and putting it back.
+  // A few steps of order 1 are cheaper than leaving a symmetry out and putting it back.
   flow.symmetry = FlowSymmetry::none;
-  const FlowJet<double> jet = precise_jet(flow);
-  return {nominal_of(jet),
+  return flow;
+}
+
+LinearArc arc_of(const ComputedProblem& problem, double time, const FlowJet<double>& jet) {
+  return {time, nominal_of(jet),
           in_momentum_unit<StateTransition>(linear_part(jet), problem.momentum_exponent)};
+}
+
+/// The flow after each of a number of equal steps, of which each is one of the integration; empty
+/// where such a step is too long for the local error.
+std::vector<LinearArc> arcs_of_steps(const ComputedProblem& problem,
+                                     const FlowProblem<double>& flow, std::size_t count) {
+  IntegrationStatistics statistics;
+  GaussSettings steps;
+  steps.step = std::abs(flow.duration) / static_cast<double>(count);
+  steps.estimates_step_error = true;
+  std::vector<LinearArc> arcs;
+  try {
+    integrate_gauss<double>(flow, steps, statistics,
+                            [&](const double& time, const FlowJet<double>& jet) {
+                              arcs.push_back(arc_of(problem, time, jet));
+                            });
+  } catch (const Error& error) {
+    // A step that is too long may have no solution.
+    if (error.kind() != ErrorKind::numerical) throw;
+    return {};
+  }
+  const bool is_precise =
+      statistics.largest_step_error && *statistics.largest_step_error <= local_error;
+  if (!is_precise || arcs.size() != count) return {};
+  return arcs;
+}
+
+/// The flow over a duration. Most arcs are so short that one step suffices, which saves the choice
+/// of steps, several times the cost of the step.
+LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
+                     const std::vector<double>& start, double duration) {
+  const FlowProblem<double> flow = linear_problem(problem, space, start, duration);
+  std::vector<LinearArc> one = arcs_of_steps(problem, flow, 1);
+  if (!one.empty()) return std::move(one.front());
+  GaussSettings adaptive;
+  adaptive.tolerance = local_error;
+  IntegrationStatistics statistics;
+  return arc_of(problem, duration, integrate_gauss<double>(flow, adaptive, statistics));
+}
+
+/// The flow after each of a number of equal parts of a duration.
+std::vector<LinearArc> linear_arcs(const ComputedProblem& problem, const SpacePointer& space,
+                                   const std::vector<double>& start, double duration,
+                                   std::size_t count) {
+  if (count == 1) return {linear_arc(problem, space, start, duration)};
+  std::vector<LinearArc> arcs =
+      arcs_of_steps(problem, linear_problem(problem, space, start, duration), count);
+  if (arcs.empty()) {
+    LinearArc last{0, start, {}};
+    for (std::size_t k = 1; k <= count; ++k) {
+      const double time = duration * static_cast<double>(k) / static_cast<double>(count);
+      LinearArc next = linear_arc(problem, space, last.state, time - last.time);
+      if (k > 1) next.matrix = next.matrix * last.matrix;
+      next.time = time;
+      arcs.push_back(next);
+      last = std::move(next);
+    }
+  }
+  return arcs;
 }
 
 /// The most checkpoints that a polynomial goes through.
@@ -128,20 +175,29 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   states_.push_back(problem.nominal);
   const auto size = static_cast<Eigen::Index>(dimension);
   matrices_.push_back(StateTransition::Identity(size, size));
+  // Checkpoints of a thirtieth of a revolution are as far apart as the first of them asks for.
+  const double most_together = std::max(1.0, std::floor(per_revolution / 30));
   double step = std::abs(duration) / per_revolution;
   while (times_.back() != duration) {
     step = std::min({2 * step, std::abs(duration) / per_revolution,
                      checkpoint_distance(states_.back(), per_revolution)});
+    // Of what is left, steps of equal length are integrated together.
     const double left = std::abs(duration - times_.back());
-    const double time =
-        left <= 1.01 * step ? duration : times_.back() + std::copysign(step, duration);
-    LinearArc arc = linear_arc(problem, space_, states_.back(), time - times_.back());
-    matrices_.push_back(arc.matrix * matrices_.back());
-    states_.push_back(std::move(arc.state));
-    times_.push_back(time);
+    const bool is_end = left <= 1.01 * step * most_together;
+    const double count = is_end ? std::ceil(left / (1.01 * step)) : most_together;
+    const double start = times_.back();
+    const double end = is_end ? duration : start + std::copysign(count * step, duration);
+    const StateTransition before = matrices_.back();
+    for (LinearArc& arc : linear_arcs(problem, space_, states_.back(), end - start,
+                                      static_cast<std::size_t>(count))) {
+      matrices_.push_back(arc.matrix * before);
+      states_.push_back(std::move(arc.state));
+      times_.push_back(start + arc.time);
+    }
+    times_.back() = end;
     // After about ten revolutions it is known whether the whole span is far too long, and soon
     // after whether it is too long at all.
-    const double foreseen = static_cast<double>(times_.size()) * (duration / time);
+    const double foreseen = static_cast<double>(times_.size()) * (duration / end);
     const double checkpoints = static_cast<double>(times_.size());
     const double error = checkpoints >= 40 * per_revolution ? 1.05
                          : checkpoints >= 10 * per_revolution
@@ -155,7 +211,7 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
                               most_checkpoints,
                               std::lround(static_cast<double>(most_checkpoints) / per_revolution)));
     }
-    if (progress) progress(time / duration);
+    if (progress) progress(end / duration);
   }
   find_interpolated();
 }

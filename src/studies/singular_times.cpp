@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <type_traits>
 
 #include "../algebra/scalar_search.hpp"
 #include "../algebra/smallest_singular_value.hpp"
@@ -72,13 +73,22 @@ double rounding_of_zero(const LinearFlow& whole, double time, const StateTransit
   constexpr std::size_t most_summed = 64;
   const std::size_t before = whole.checkpoint_before(time) + 1;
   const std::size_t stride = before / most_summed + 1;
-  double sum = flow.squaredNorm();
-  for (std::size_t s = stride; s < before; s += stride) {
-    const StateTransition& matrix = whole.checkpoint(s);
-    // M M_s^-1 and M J M_s^T have the same norm, because J only exchanges rows and changes signs.
-    const StateTransition turned = symplectic_unit_times(StateTransition(matrix.transpose()));
-    sum += static_cast<double>(stride) * (flow * turned).squaredNorm() * matrix.squaredNorm();
-  }
+  // M M_s^-1 and M J M_s^T have the same norm, because J only exchanges rows and changes signs.
+  const StateTransition turned =
+      symplectic_unit_times(StateTransition(flow.transpose())).transpose();
+  const auto add_all = [&](const auto& fixed) {
+    using Fixed = std::remove_cvref_t<decltype(fixed)>;
+    const Fixed from = turned;
+    double sum = flow.squaredNorm();
+    for (std::size_t s = stride; s < before; s += stride) {
+      const Eigen::Map<const Fixed> matrix(whole.checkpoint(s).data(), flow.rows(), flow.cols());
+      const Fixed carried = from * matrix.transpose();
+      sum += static_cast<double>(stride) * carried.squaredNorm() * matrix.squaredNorm();
+    }
+    return sum;
+  };
+  const double sum =
+      flow.rows() == 6 ? add_all(Eigen::Matrix<double, 6, 6>()) : add_all(StateTransition());
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) / flow.norm();
 }
 

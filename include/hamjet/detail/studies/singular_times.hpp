@@ -26,9 +26,9 @@ class LinearFlow {
   /// equations: it is 2 sqrt(2) pi / (|lambda| `per_revolution`). A circular orbit thus has
   /// `per_revolution` checkpoints per revolution, and on other orbits the distance is proportional
   /// to r^(3/2). It is never larger than the span over `per_revolution`, or than twice the last
-  /// distance. The problem must outlive this object. Throws Error(usage) unless it is expanded in
-  /// all variables, Error(too_large) beyond 500 000 checkpoints, Error(numerical) as
-  /// integrate_gauss.
+  /// distance. Checkpoints of a thirtieth of a revolution are equally far apart. The problem must
+  /// outlive this object. Throws Error(usage) unless it is expanded in all variables,
+  /// Error(too_large) beyond 500 000 checkpoints, Error(numerical) as integrate_gauss.
   LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
              const std::function<void(double)>& progress = {});
 
