@@ -245,11 +245,13 @@ void DeputyEvaluation::run(
         },
         [](long) {});
   }
+  std::vector<double> deviation(6);
   for (std::size_t task = 0; task < tasks; ++task) {
     const Worker& worker = workers_[task];
     for (std::size_t k = 0; k < worker.predictions.size(); ++k) {
       const SixNumbers<double>& found = worker.predictions[k].deviation;
-      take({found.begin(), found.end()}, worker.estimates[k]);
+      std::copy(found.begin(), found.end(), deviation.begin());
+      take(deviation, worker.estimates[k]);
     }
   }
   pending_.clear();

@@ -140,9 +140,9 @@ std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonic
 
 std::vector<double> EvalCoordinates::variables(std::span<const double> deviation) const {
   if (!initial_) {
-    std::vector<double> numbers;
-    for (std::size_t i = 0; i < deviation.size(); ++i) {
-      numbers.push_back(deviation[i] / told_factor(stored_.variables[i]));
+    std::vector<double> numbers(deviation.begin(), deviation.end());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      numbers[i] /= told_factor(stored_.variables[i]);
     }
     return numbers;
   }
@@ -154,8 +154,8 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
       throw Error(ErrorKind::usage, error.what());
     }
   }();
-  std::vector<double> result;
-  for (const std::size_t v : stored_.variables) result.push_back(canonical[v]);
+  std::vector<double> result(stored_.variables.size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = canonical[stored_.variables[i]];
   if (result.size() == canonical.size()) return result;
   // What the rotation of the axes leaves of a component that ought to vanish is round-off.
   constexpr double round_off = 8 * std::numeric_limits<double>::epsilon();
@@ -177,24 +177,24 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
 
 double EvalCoordinates::turned_m(std::span<const double> components, double chief_error) const {
   if (!has_axes_of_chief_) return 0;
-  double separation = 0;
+  double square = 0;
   for (std::size_t c = 0; c < components.size() && stored_.components[c] < 3; ++c) {
-    separation = std::hypot(separation, components[c]);
+    square += components[c] * components[c];
   }
-  return chief_error / chief_distance_ * separation * stored_.units.length_km * 1000;
+  return chief_error / chief_distance_ * std::sqrt(square) * stored_.units.length_km * 1000;
 }
 
 std::vector<double> EvalCoordinates::final_state(std::span<const double> components,
                                                  double chief_error, MissEstimate& miss) const {
   miss.integration_m += turned_m(components, chief_error);
   if (!final_) {
-    std::vector<double> numbers;
-    for (std::size_t c = 0; c < components.size(); ++c) {
-      numbers.push_back(components[c] * told_factor(stored_.components[c]));
+    std::vector<double> numbers(components.begin(), components.end());
+    for (std::size_t c = 0; c < numbers.size(); ++c) {
+      numbers[c] *= told_factor(stored_.components[c]);
     }
     return numbers;
   }
-  std::vector<double> full(stored_.nominal_initial.size(), 0);
+  std::array<double, 6> full{};  // of an orbit
   for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
   try {
     const auto numbers = final_->coordinates(full);

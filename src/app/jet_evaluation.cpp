@@ -27,10 +27,12 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Seri
   if (degree < stored.order()) whole_.emplace(map);
 }
 
-void JetEvaluation::add(const std::vector<double>& variables) { pending_.push_back(variables); }
+void JetEvaluation::add(const std::vector<double>& variables) {
+  pending_.insert(pending_.end(), variables.begin(), variables.end());
+}
 
 DegreeShares JetEvaluation::shares(std::size_t point) const {
-  const std::size_t count = pending_.size();
+  const std::size_t count = pending();
   DegreeShares result;
   double squares[3] = {0, 0, 0};
   for (std::size_t c = 0; c < evaluator_.components(); ++c) {
@@ -39,7 +41,7 @@ DegreeShares JetEvaluation::shares(std::size_t point) const {
     const double lower = sum - last_[place] - last_but_one_[place];
     const double shares[3] = {lower, last_but_one_[place], last_[place]};
     const double unit = c < positions_ ? 1 : momentum_unit_;
-    for (std::size_t i = 0; i < 3; ++i) squares[i] += std::pow(shares[i] / unit, 2);
+    for (std::size_t i = 0; i < 3; ++i) squares[i] += shares[i] / unit * (shares[i] / unit);
     if (c + 1 == positions_) {
       result.lower.position = std::sqrt(squares[0]) * length_m_;
       result.last_but_one.position = std::sqrt(squares[1]) * length_m_;
@@ -57,10 +59,14 @@ MissEstimate JetEvaluation::estimate(std::size_t point) const {
   const TruncationEstimate truncation = estimate_truncation(highest, shares(point));
   double left_out = 0;
   double error = 0;
+  const std::size_t count = pending();
   for (std::size_t c = 0; c < positions_; ++c) {
-    const std::size_t place = c * pending_.size() + point;
-    if (whole_) left_out += std::pow(whole_values_[place] - values_[place], 2);
-    error += std::pow(errors_[place], 2);
+    const std::size_t place = c * count + point;
+    if (whole_) {
+      const double missing = whole_values_[place] - values_[place];
+      left_out += missing * missing;
+    }
+    error += errors_[place] * errors_[place];
   }
   return {truncation.support, truncation.miss + std::sqrt(left_out) * length_m_,
           std::sqrt(error) * length_m_, 0};
@@ -68,11 +74,12 @@ MissEstimate JetEvaluation::estimate(std::size_t point) const {
 
 void JetEvaluation::run(
     const std::function<void(const std::vector<double>&, const MissEstimate&)>& take) {
-  const std::size_t count = pending_.size();
-  variables_.resize(evaluator_.variables() * count);
+  const std::size_t count = pending();
+  const std::size_t width = evaluator_.variables();
+  variables_.resize(width * count);
   for (std::size_t j = 0; j < count; ++j) {
-    for (std::size_t i = 0; i < evaluator_.variables(); ++i) {
-      variables_[i * count + j] = pending_[j][i];
+    for (std::size_t i = 0; i < width; ++i) {
+      variables_[i * count + j] = pending_[j * width + i];
     }
   }
   for (auto* results : {&values_, &last_, &last_but_one_, &errors_}) {

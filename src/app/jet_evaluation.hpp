@@ -42,7 +42,7 @@ class JetEvaluation {
   /// miss to `take`, in order, and starts anew.
   void run(const std::function<void(const std::vector<double>&, const MissEstimate&)>& take);
 
-  std::size_t pending() const { return pending_.size(); }
+  std::size_t pending() const { return pending_.size() / evaluator_.variables(); }
   /// By how much the chief's final position may be wrong, canonical; 0 where the jet says nothing.
   double chief_error() const { return chief_error_; }
   std::size_t points() const { return points_; }
@@ -62,7 +62,7 @@ class JetEvaluation {
   double momentum_unit_;               ///< that makes momenta alike to positions, see DegreeShares
   double length_m_;
   double chief_error_;
-  std::vector<std::vector<double>> pending_;
+  std::vector<double> pending_;  ///< point after point
   std::size_t points_ = 0;
   double seconds_ = 0;
   // Structures of arrays, see MapEvaluator.

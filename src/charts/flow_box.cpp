@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "../algebra/instantiated_real.hpp"
+#include "../integrators/gauss/gauss_tolerance.hpp"
 #include "../integrators/statistics_sum.hpp"
 #include "carried_states.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -156,7 +157,17 @@ FlowBoxMap<Real> FlowBoxPropagation<Real>::advance_to(const Real& time) {
   flow_.initial_state.clear();
   for (const auto& component : jet) flow_.initial_state.push_back(component[0]);
   IntegrationStatistics statistics;
-  jet = integrate_gauss<Real>(flow_, settings_, statistics);
+  // A part that is no longer than another one, of the same orbit, needs no shorter steps.
+  constexpr double alike = 1.01;
+  using std::abs;
+  const auto length = static_cast<double>(Real(abs(flow_.duration)));
+  if (step_tolerance_ && length <= alike * tried_) {
+    jet = integrate_with_step_tolerance<Real>(flow_, settings_, *step_tolerance_, statistics);
+  } else {
+    jet = integrate_gauss<Real>(flow_, settings_, statistics);
+    step_tolerance_ = statistics.step_tolerance;
+    tried_ = length;
+  }
   flow_.start_time = flow_.start_time + flow_.duration;
   add_integration(total_, statistics);
   reached_ = time;

@@ -16,7 +16,18 @@ bool is_finite(const DegreeShares::Norms& norms) {
 
 /// The mean rate of decay over `steps` degrees; 0 where the later share vanishes.
 double mean_decay(double from, double to, int steps) {
-  return to > 0 ? std::pow(to / from, 1.0 / steps) : 0;
+  if (!(to > 0)) return 0;
+  const double ratio = to / from;
+  switch (steps) {
+    case 1:
+      return ratio;
+    case 2:
+      return std::sqrt(ratio);
+    case 3:
+      return std::cbrt(ratio);
+    default:
+      return std::pow(ratio, 1.0 / steps);
+  }
 }
 
 /// The degrees above N, continued at rate q: max(d_N q, d_(N-1) q^2) / (1 - q).

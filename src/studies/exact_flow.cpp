@@ -1,7 +1,5 @@
 #include "exact_flow.hpp"
 
-#include "hamjet/integrators/gauss_collocation.hpp"
-
 namespace hamjet {
 
 std::vector<double> nominal_of(const FlowJet<double>& jet) {
@@ -15,13 +13,17 @@ FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::ve
   return {system, SeriesSpace::create(1, 0), {0}, start, start_time, duration};
 }
 
-std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
-                               const ClockTime& start_time, double duration) {
+GaussSettings exact_gauss() {
   GaussSettings settings;
   settings.tolerance = 1e-13;
+  return settings;
+}
+
+std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
+                               const ClockTime& start_time, double duration) {
   IntegrationStatistics statistics;
   return nominal_of(integrate_gauss(trajectory_problem(system, start, start_time, duration),
-                                    settings, statistics));
+                                    exact_gauss(), statistics));
 }
 
 }  // namespace hamjet

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hamjet/integrators/flow_problem.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 
@@ -13,6 +13,9 @@ std::vector<double> nominal_of(const FlowJet<double>& jet);
 /// `start_time` of the system's clock.
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
                                        const ClockTime& start_time, double duration);
+
+/// The settings with which exact_flow integrates.
+GaussSettings exact_gauss();
 
 /// The final state of the flow with the full equations of motion, to the precision of double, of
 /// the state that stands at `start_time` of the system's clock.

@@ -198,8 +198,9 @@ void sample_rounding_in_doubt(const Scene& scene, const FlowProblem<Real>& flow,
   const Stopwatch stopwatch(run.error_estimate.seconds);
   const SplittableMethod method = splittable_method(run.settings);
   const auto along_line = [&](const FlowProblem<Real>& line) {
+    IntegrationStatistics statistics;
     return integrate_with_step_tolerance<Real>(line, std::get<GaussSettings>(method),
-                                               *step_tolerance);
+                                               *step_tolerance, statistics);
   };
   try {
     const std::vector<double> sampled =

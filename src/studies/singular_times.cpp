@@ -10,8 +10,10 @@
 #include <limits>
 #include <numbers>
 #include <span>
+#include <type_traits>
 
 #include "../algebra/scalar_search.hpp"
+#include "../algebra/smallest_singular_value.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -19,36 +21,48 @@ namespace {
 
 using StateTransition = LinearFlow::StateTransition;
 
-/// The smallest singular value of a block of n x n numbers, with the determinant's sign.
-template <int n>
+/// The smallest singular value of a block, with the determinant's sign.
 double signed_smallest(const Matrix<double>& block) {
-  using Block = Eigen::Matrix<double, n, n>;
-  // The determinant is a sum of products of size up to the n-th power of the largest value, with
-  // rounding.
-  constexpr double certain = 1e-12;
-  const Block matrix(block);
-  const auto values = Eigen::JacobiSVD<Block>(matrix).singularValues().eval();
-  if (values.prod() > certain * std::pow(values[0], block.rows())) {
-    return std::copysign(values[block.rows() - 1], matrix.determinant());
-  }
-  const Eigen::JacobiSVD<Block> decomposition(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Matrix<double>> decomposition(block,
+                                                       Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = decomposition.matrixU().determinant() * decomposition.matrixV().determinant();
   return std::copysign(decomposition.singularValues()[block.rows() - 1], sign);
 }
 
-/// The function whose zeros are the singular times, see find_singular_times. Throws
-/// Error(numerical) if the flow's matrix is not finite.
-double watched_value(const StateTransition& flow, const GeneratingFunctionKind& kind) {
-  if (!flow.allFinite()) {
-    throw Error(ErrorKind::numerical, "singular times: the flow's matrix is not finite");
+/// The function whose zeros are the singular times of a kind, see find_singular_times.
+class WatchedValue {
+ public:
+  explicit WatchedValue(const GeneratingFunctionKind& kind) : kind_(kind) {
+    for (std::size_t i = 0; i < kind.degrees_of_freedom(); ++i) {
+      rows_.push_back(static_cast<Eigen::Index>(kind.final_variable(i)));
+      columns_.push_back(static_cast<Eigen::Index>(kind.initial_variable(i, false)));
+    }
   }
-  const Matrix<double> block = inverted_block(flow, kind);
-  const double value =
-      block.rows() == 3 ? signed_smallest<3>(block) : signed_smallest<Eigen::Dynamic>(block);
-  return value / flow.norm();
-}
 
-/// The value of watched_value that rounding leaves at a zero, at a time where the flow's matrix is
+  /// Throws Error(numerical) if the flow's matrix is not finite.
+  double operator()(const StateTransition& flow) const {
+    const double size = flow.norm();
+    if (!std::isfinite(size)) {
+      throw Error(ErrorKind::numerical, "singular times: the flow's matrix is not finite");
+    }
+    if (rows_.size() != 3) return signed_smallest(inverted_block(flow, kind_)) / size;
+    Eigen::Matrix3d block;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      for (Eigen::Index j = 0; j < 3; ++j) {
+        block(i, j) =
+            flow(rows_[static_cast<std::size_t>(i)], columns_[static_cast<std::size_t>(j)]);
+      }
+    }
+    return signed_smallest_singular_value(block) / size;
+  }
+
+ private:
+  const GeneratingFunctionKind& kind_;
+  std::vector<Eigen::Index> rows_;
+  std::vector<Eigen::Index> columns_;
+};
+
+/// The watched value that rounding leaves at a zero, at a time where the flow's matrix is
 /// `flow`. An ulp in the matrix M_s of each checkpoint, carried to that time by M M_s^-1, adds up
 /// to
 ///
@@ -59,26 +73,35 @@ double rounding_of_zero(const LinearFlow& whole, double time, const StateTransit
   constexpr std::size_t most_summed = 64;
   const std::size_t before = whole.checkpoint_before(time) + 1;
   const std::size_t stride = before / most_summed + 1;
-  double sum = flow.squaredNorm();
-  for (std::size_t s = stride; s < before; s += stride) {
-    const StateTransition& matrix = whole.checkpoint(s);
-    // M M_s^-1 and M J M_s^T have the same norm, because J only exchanges rows and changes signs.
-    const StateTransition turned = symplectic_unit_times(StateTransition(matrix.transpose()));
-    sum += static_cast<double>(stride) * (flow * turned).squaredNorm() * matrix.squaredNorm();
-  }
+  // M M_s^-1 and M J M_s^T have the same norm, because J only exchanges rows and changes signs.
+  const StateTransition turned =
+      symplectic_unit_times(StateTransition(flow.transpose())).transpose();
+  const auto add_all = [&](const auto& fixed) {
+    using Fixed = std::remove_cvref_t<decltype(fixed)>;
+    const Fixed from = turned;
+    double sum = flow.squaredNorm();
+    for (std::size_t s = stride; s < before; s += stride) {
+      const Eigen::Map<const Fixed> matrix(whole.checkpoint(s).data(), flow.rows(), flow.cols());
+      const Fixed carried = from * matrix.transpose();
+      sum += static_cast<double>(stride) * carried.squaredNorm() * matrix.squaredNorm();
+    }
+    return sum;
+  };
+  const double sum =
+      flow.rows() == 6 ? add_all(Eigen::Matrix<double, 6, 6>()) : add_all(StateTransition());
   return std::numeric_limits<double>::epsilon() * std::sqrt(sum) / flow.norm();
 }
 
-/// Searches the zeros of one kind's watched_value.
+/// Searches the zeros of one kind's watched value.
 class ZeroSearch {
  public:
   ZeroSearch(const LinearFlow& flow, const GeneratingFunctionKind& kind)
-      : flow_(flow), kind_(kind) {
+      : flow_(flow), kind_(kind), watched_value_(kind) {
     // At the start every block is trivially singular or the identity, so that the search begins
     // after it.
     for (std::size_t i = 1; i < flow.times().size(); ++i) {
       times_.push_back(flow.times()[i]);
-      ratios_.push_back(watched_value(flow.checkpoint(i), kind));
+      ratios_.push_back(watched_value_(flow.checkpoint(i)));
     }
     for (const std::size_t parts : {std::size_t{8}, std::size_t{4}}) divide(parts);
   }
@@ -151,7 +174,7 @@ class ZeroSearch {
     found_ = std::move(merged);
   }
 
-  double ratio_at(double t) const { return watched_value(flow_.at(t), kind_); }
+  double ratio_at(double t) const { return watched_value_(flow_.at(t)); }
 
   /// SingularTime::resolution: it is doubled until the function differs from zero on both sides.
   double resolution_at(double t, double rounding) const {
@@ -258,8 +281,9 @@ class ZeroSearch {
 
   const LinearFlow& flow_;
   const GeneratingFunctionKind& kind_;
+  WatchedValue watched_value_;
   std::vector<double> times_;   ///< checkpoints after the start, and points between
-  std::vector<double> ratios_;  ///< watched_value at these times
+  std::vector<double> ratios_;  ///< watched values at these times
   std::vector<SingularTime> found_;
 };
 

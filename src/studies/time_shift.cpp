@@ -13,12 +13,12 @@ std::vector<double> time_shift_difference(const FlowProblem<Real>& flow, const F
                                           const RunResult& run) {
   const DirectionalFlow<Real> lines(flow, 2);
   const auto along_line = [&](const FlowProblem<Real>& line) {
+    IntegrationStatistics statistics;
     if (run.statistics.step_tolerance) {
       return integrate_with_step_tolerance<Real>(
           line, std::get<GaussSettings>(splittable_method(run.settings)),
-          *run.statistics.step_tolerance);
+          *run.statistics.step_tolerance, statistics);
     }
-    IntegrationStatistics statistics;
     return integrate<Real>(line, run.settings, statistics, {});
   };
   try {

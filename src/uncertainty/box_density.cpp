@@ -62,13 +62,11 @@ double log_mean_positive(double a) {
   return log_density + std::log(s * (1 - s * (3 - s * (15 - s * 105))));
 }
 
-double BoxDensity::Node::log_mass() const {
-  return log_sum(log_even, log_mean) + std::log(box.volume());
-}
-
 BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   // Gauss's quadrature points, two in each dimension, and the centre.
   std::array<NormalFactor, 9> factors{};
+  std::array<double, 9> of_speed{};    // logarithms of the factors of the speeds
+  std::array<double, 9> log_values{};  // of the density
   for (std::size_t k = 0; k < 9; ++k) {
     std::array<double, 3> point{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -76,19 +74,21 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
       point[i] = (box.low[i] + box.high[i]) / 2 + side * (box.high[i] - box.low[i]) / 2;
     }
     factors[k] = density(point);
+    if (factors[k].speed) of_speed[k] = log_mean_positive(*factors[k].speed);
+    log_values[k] = factors[k].log_value(of_speed[k]);
   }
   Node node;
   node.box = box;
-  node.log_even = node.log_mean = node.priority = nothing;
+  node.log_even = node.log_mean = node.log_mass = node.priority = nothing;
   const NormalFactor& centre = factors[8];
   double largest = nothing;
   double amplitude = nothing;
   double spread = 0;
   double speeds = 0;
-  for (const NormalFactor& factor : factors) {
-    if (!std::isfinite(factor.log_value())) continue;
-    largest = std::max(largest, factor.log_value());
-    amplitude = std::max(amplitude, factor.log_amplitude);
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    if (!std::isfinite(log_values[k])) continue;
+    largest = std::max(largest, log_values[k]);
+    amplitude = std::max(amplitude, factors[k].log_amplitude);
   }
   if (largest == nothing) return node;
   // The largest change along a diagonal. Gauss's points are at 1 / sqrt(3) of the way from the
@@ -114,17 +114,19 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
     }
   }
   const double nearest = std::max(0.0, norm(centre.white) - spread);
-  if (centre.speed) amplitude += log_mean_positive(*centre.speed + speeds);
+  const double of_highest_speed = centre.speed ? log_mean_positive(*centre.speed + speeds) : 0;
+  amplitude += of_highest_speed;
   const double bound = std::max(largest, amplitude - nearest * nearest / 2);
   // For a fast entry the factor is the speed itself, whose logarithm changes little.
   const double change_of_factor =
-      centre.speed ? log_mean_positive(*centre.speed + speeds) -
-                         log_mean_positive(*centre.speed - std::min(speeds, 10.0))
+      centre.speed ? of_highest_speed - log_mean_positive(*centre.speed - std::min(speeds, 10.0))
                    : 0;
   double mean = 0;
-  for (const NormalFactor& factor : factors) mean += std::exp(factor.log_value() - bound) / 9;
+  for (const double value : log_values) mean += std::exp(value - bound) / 9;
   node.log_mean = bound + std::log(mean);
   node.log_even = bound + std::log(mean > 0 ? share_of_bound : share_of_unseen);
+  const double log_volume = std::log(box.volume());
+  node.log_mass = log_sum(node.log_even, node.log_mean) + log_volume;
   // The box is halved across the direction in which the density changes most.
   double steepest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -134,8 +136,8 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
     for (std::size_t k = 0; k < 8; ++k) {
       const double sign = ((k >> i) & 1U) != 0 ? 0.25 : -0.25;
       for (std::size_t c = 0; c < 3; ++c) difference[c] += sign * factors[k].white[c];
-      if (centre.speed) factor += sign * log_mean_positive(*factors[k].speed);
-      value += sign * factors[k].log_value();
+      factor += sign * of_speed[k];
+      value += sign * log_values[k];
     }
     // Gauss's points are 1 / sqrt(3) of the box apart.
     value *= std::numbers::sqrt3;
@@ -148,21 +150,21 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   }
   // Taking the logarithm as linear misses the terms of second order.
   const double second = std::pow(spread + change_of_factor, 2);
-  node.priority = bound + std::log(box.volume()) + std::log(std::min(1.0, second) + 1e-9);
+  node.priority = bound + log_volume + std::log(std::min(1.0, second) + 1e-9);
   return node;
 }
 
 bool BoxDensity::is_fine() const {
   double most = nothing;
   for (const Node& node : nodes_) {
-    if (node.first_child == 0) most = std::max(most, node.log_mass());
+    if (node.first_child == 0) most = std::max(most, node.log_mass);
   }
   double missed = 0;
   double whole = 0;
   for (const Node& node : nodes_) {
     if (node.first_child != 0 || node.log_even == nothing) continue;
     missed += std::exp(node.priority - most);
-    whole += std::exp(node.log_mass() - most);
+    whole += std::exp(node.log_mass - most);
   }
   return missed < fine_enough * whole;
 }
@@ -199,17 +201,24 @@ BoxDensity::BoxDensity(const std::vector<Box>& boxes, const Density& density, st
       queue.push({nodes_.back().priority, nodes_.size() - 1});
     }
   }
+  branches_.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    const auto dimension = static_cast<std::size_t>(node.dimension);
+    const double middle = node.first_child == 0 ? 0 : nodes_[node.first_child].box.high[dimension];
+    branches_.push_back({middle, static_cast<std::uint32_t>(node.first_child),
+                         static_cast<std::uint32_t>(dimension)});
+  }
   log_mass_ = nothing;
   double largest = nothing;
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     if (nodes_[k].first_child != 0 || nodes_[k].log_even == nothing) continue;
     leaves_.push_back(k);
-    largest = std::max(largest, nodes_[k].log_mass());
+    largest = std::max(largest, nodes_[k].log_mass);
   }
   if (leaves_.empty()) return;
   double sum = 0;
   for (const std::size_t leaf : leaves_) {
-    sum += std::exp(nodes_[leaf].log_mass() - largest);
+    sum += std::exp(nodes_[leaf].log_mass - largest);
     cumulative_.push_back(sum);
   }
   log_mass_ = largest + std::log(sum);
@@ -234,20 +243,20 @@ std::optional<double> BoxDensity::log_density(const std::array<double, 3>& point
       std::upper_bound(nodes_.begin(), end, point[0],
                        [](double x, const Node& node) { return x < node.box.low[0]; });
   if (after == nodes_.begin()) return {};
-  const Node* node = &*(after - 1);
-  if (point[0] > node->box.high[0]) return {};
-  while (node->first_child != 0) {
-    const Node& lower = nodes_[node->first_child];
-    const auto dimension = static_cast<std::size_t>(node->dimension);
-    node = point[dimension] < lower.box.high[dimension] ? &lower : &lower + 1;
+  auto place = static_cast<std::size_t>(after - nodes_.begin()) - 1;
+  if (point[0] > nodes_[place].box.high[0]) return {};
+  while (branches_[place].first_child != 0) {
+    const Branch& branch = branches_[place];
+    place = branch.first_child + (point[branch.dimension] < branch.middle ? 0 : 1);
   }
-  if (node->log_even == nothing) return {};
-  double tilt = node->log_mean;
+  const Node& node = nodes_[place];
+  if (node.log_even == nothing) return {};
+  double tilt = node.log_mean;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double length = node->box.high[i] - node->box.low[i];
-    tilt += log_tilt((point[i] - node->box.low[i]) / length, node->slope[i]);
+    const double length = node.box.high[i] - node.box.low[i];
+    tilt += log_tilt((point[i] - node.box.low[i]) / length, node.slope[i]);
   }
-  return log_sum(node->log_even, tilt) - log_mass_;
+  return log_sum(node.log_even, tilt) - log_mass_;
 }
 
 }  // namespace hamjet

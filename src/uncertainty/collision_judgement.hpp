@@ -12,9 +12,9 @@ namespace hamjet {
 void take_linear_path(const RelativePaths& paths, const EncounterDeviation& deviation,
                       SampledPath& path);
 
-/// The time at which a path first counts as a collision; no value if it never does.
-std::optional<double> first_event(const RelativePaths& paths, const SampledPath& path,
-                                  double radius, CollisionEvent event);
+/// Whether a path counts as a collision.
+bool has_event(const RelativePaths& paths, const SampledPath& path, double radius,
+               CollisionEvent event);
 
 /// The judgement of a path whose distances have a known error.
 struct Judgement {

@@ -154,7 +154,7 @@ void Estimate::judge(const Block& samples, std::size_t count, bool with_lower_or
     }
     if (with_lower_order) {
       take_path(lower, samples_in_block, j, path);
-      const bool hit = first_event(*paths_, path, problem_->radius, settings_->event).has_value();
+      const bool hit = has_event(*paths_, path, problem_->radius, settings_->event);
       const double change = (hit ? weight : 0) - (entry ? weight : 0);
       ++sums.compared;
       sums.change += change;

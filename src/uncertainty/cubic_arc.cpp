@@ -90,12 +90,25 @@ void SquaredDistance::entries(double square, std::vector<double>& parts) const {
   entries(square, 0, 1, parts);
 }
 
-void SquaredDistance::entries(double square, double from, double to,
-                              std::vector<double>& parts) const {
+int SquaredDistance::crossings(double square) const {
   // By Descartes' rule there are no more roots than changes of sign among the coefficients, and
   // their number has the same parity.
   int changes = 0;
   for (std::size_t i = 0; i + 1 < 7; ++i) changes += (c_[i] < square) != (c_[i + 1] < square);
+  return changes;
+}
+
+bool SquaredDistance::enters(double square, double length) const {
+  const int changes = crossings(square);
+  if (changes == 0) return false;
+  if (changes == 1 || length < shortest_part) return c_[0] >= square && c_[6] < square;
+  const auto [left, right] = halves();
+  return left.enters(square, length / 2) || right.enters(square, length / 2);
+}
+
+void SquaredDistance::entries(double square, double from, double to,
+                              std::vector<double>& parts) const {
+  const int changes = crossings(square);
   if (changes == 0) return;
   if (changes == 1 || to - from < shortest_part) {
     if (c_[0] < square || c_[6] >= square) return;

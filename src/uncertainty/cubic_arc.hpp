@@ -29,6 +29,8 @@ class SquaredDistance {
   /// Appends to the list the fractions of the interval at which the squared distance falls through
   /// this square.
   void entries(double square, std::vector<double>& parts) const;
+  /// Whether there is such a fraction.
+  bool enters(double square) const { return enters(square, 1); }
   /// The least value in the interval, not below 0, or `best` where nothing is below `best`. It is
   /// accurate to 1e-12 of itself, or 1e-15 of the largest value.
   double least(double best) const;
@@ -39,6 +41,9 @@ class SquaredDistance {
   explicit SquaredDistance(const std::array<double, 7>& c) : c_(c) {}
   std::array<SquaredDistance, 2> halves() const;
   void entries(double square, double from, double to, std::vector<double>& parts) const;
+  bool enters(double square, double length) const;
+  /// How often the coefficients cross a value, one after the other.
+  int crossings(double square) const;
   double least(double best, int depth) const;
 
   std::array<double, 7> c_;

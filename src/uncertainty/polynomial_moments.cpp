@@ -277,14 +277,23 @@ Cumulants Cumulants::of_points(const Matrix<double>& points, const Vector<double
   const Eigen::Index pairs = rank * (rank + 1) / 2;
   Matrix<double> with_one = Matrix<double>::Zero(pairs, rank);
   Matrix<double> with_pair = Matrix<double>::Zero(pairs, pairs);
-  Vector<double> products(pairs);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    Eigen::Index pair = 0;
-    for (Eigen::Index i = 0; i < rank; ++i) {
-      for (Eigen::Index j = i; j < rank; ++j) products[pair++] = w(i, k) * w(j, k);
+  // Of this many points at once sums of products are products of matrices.
+  constexpr Eigen::Index most_at_once = 128;
+  Matrix<double> products(pairs, std::min(count, most_at_once));
+  Matrix<double> weighted(pairs, products.cols());
+  for (Eigen::Index first = 0; first < count; first += most_at_once) {
+    const Eigen::Index some = std::min(most_at_once, count - first);
+    for (Eigen::Index k = 0; k < some; ++k) {
+      const double* const z = w.col(first + k).data();
+      double* product = products.col(k).data();
+      for (Eigen::Index i = 0; i < rank; ++i) {
+        for (Eigen::Index j = i; j < rank; ++j) *product++ = z[i] * z[j];
+      }
     }
-    with_one.noalias() += weights[k] * products * w.col(k).transpose();
-    with_pair.noalias() += weights[k] * products * products.transpose();
+    const auto now = products.leftCols(some);
+    weighted.leftCols(some) = now * weights.segment(first, some).asDiagonal();
+    with_one.noalias() += weighted.leftCols(some) * w.middleCols(first, some).transpose();
+    with_pair.noalias() += weighted.leftCols(some) * now.transpose();
   }
   Moments moments = cumulants_of(rank, with_one, with_pair);
   result.third_ = std::move(moments.third);

@@ -175,7 +175,7 @@ TEST(OwnScene, ThePendulumHasItsPeriod) {
 // A particle that is pushed by cos(t): q'' = cos(t) from rest is at 1 - cos(t), and its jet is that
 // of a free one.
 TEST(OwnScene, TakesTheTime) {
-  const Scene scene = parse_scene(R"([system]
+  const Scene scene = parse_scene(R"scene([system]
 model = "own"
 coordinates = ["q"]
 momenta = ["p"]
@@ -186,7 +186,7 @@ momenta = [0]
 [jet]
 order = 2
 duration_canonical = 2
-)",
+)scene",
                                   "file.toml");
   const PropagationResult result = propagate(scene);
   ASSERT_EQ(result.runs.at(0).failure, "");

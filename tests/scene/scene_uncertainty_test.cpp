@@ -21,7 +21,7 @@ velocity_km_s = [0, 7.5, 0]
 duration_s = 6000
 )";
 
-Scene scene_with(const std::string& tables) {
+Scene scene_with_tables(const std::string& tables) {
   return parse_scene(about_earth + tables, "file.toml");
 }
 
@@ -34,7 +34,7 @@ std::string rows(const std::string& fifth_row = "[0, 0, 0, 0, 1e-2, 0]",
 
 TEST(SceneUncertainty, StandardDeviationsAreASquareRoot) {
   const Scene scene =
-      scene_with("[uncertainty]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.1, 0, 0.3]\n");
+      scene_with_tables("[uncertainty]\nposition_m = [1, 2, 3]\nvelocity_m_s = [0.1, 0, 0.3]\n");
   ASSERT_TRUE(scene.uncertainty && scene.uncertainty->chief);
   const StateUncertainty& chief = *scene.uncertainty->chief;
   EXPECT_EQ(chief.frame, RelativeFrame::rtn_inertial);
@@ -52,9 +52,10 @@ TEST(SceneUncertainty, StandardDeviationsAreASquareRoot) {
 
 TEST(SceneUncertainty, AMatrixAndStandardDeviationsAreTheSameCovariance) {
   const Matrix<double> of_matrix =
-      scene_with("[uncertainty]\n" + rows()).uncertainty->chief->covariance.matrix();
+      scene_with_tables("[uncertainty]\n" + rows()).uncertainty->chief->covariance.matrix();
   const Matrix<double> of_deviations =
-      scene_with("[uncertainty]\nposition_m = [100, 200, 300]\nvelocity_m_s = [0.1, 0.1, 0.1]\n")
+      scene_with_tables(
+          "[uncertainty]\nposition_m = [100, 200, 300]\nvelocity_m_s = [0.1, 0.1, 0.1]\n")
           .uncertainty->chief->covariance.matrix();
   EXPECT_LT((of_matrix - of_deviations)
                 .cwiseQuotient(of_deviations.diagonal().cwiseSqrt() *
@@ -66,9 +67,9 @@ TEST(SceneUncertainty, AMatrixAndStandardDeviationsAreTheSameCovariance) {
 TEST(SceneUncertainty, FramesAndDerivativesAreThoseOfTheTableOrOfTheOneAbove) {
   const std::string deputy = "[deputy]\nposition_m = [0, 100, 0]\n";
   const auto frame = [&](const std::string& of_table, const std::string& of_deputy) {
-    return scene_with(deputy + "[uncertainty]\n" + of_table +
-                      "position_m = [1, 1, 1]\n[uncertainty.deputy]\n" + of_deputy +
-                      "position_m = [1, 1, 1]\n")
+    return scene_with_tables(deputy + "[uncertainty]\n" + of_table +
+                             "position_m = [1, 1, 1]\n[uncertainty.deputy]\n" + of_deputy +
+                             "position_m = [1, 1, 1]\n")
         .uncertainty->deputy->frame;
   };
   EXPECT_EQ(frame("", ""), RelativeFrame::rtn_inertial);
@@ -79,7 +80,7 @@ TEST(SceneUncertainty, FramesAndDerivativesAreThoseOfTheTableOrOfTheOneAbove) {
 
 // A table inherits only what its own frame takes: inertial axes have one kind of derivatives.
 TEST(SceneUncertainty, ATableInheritsNothingThatItsFrameDoesNotTake) {
-  const Scene scene = scene_with(
+  const Scene scene = scene_with_tables(
       "[deputy]\nposition_m = [0, 10, 0]\n[uncertainty]\nframe = \"RTN\"\nderivatives = "
       "\"rotating\"\nposition_m = [1, 1, 1]\n[uncertainty.deputy]\nframe = \"inertial\"\n"
       "position_m = [1, 1, 1]\n[uncertainty.burn]\nframe = \"inertial\"\nvelocity_change_m_s = "
@@ -91,7 +92,7 @@ TEST(SceneUncertainty, ATableInheritsNothingThatItsFrameDoesNotTake) {
 
 TEST(SceneUncertainty, ABurnHasTheCovarianceOfGates) {
   // Along T: the size moves vT, the direction vR and vN.
-  const auto burn = scene_with(
+  const auto burn = scene_with_tables(
                         "[uncertainty.burn]\nvelocity_change_m_s = [0, 10, 0]\nmagnitude = 0.01\n"
                         "direction_deg = 0.5\n")
                         .uncertainty->burn;
@@ -145,7 +146,7 @@ TEST(SceneUncertainty, NoiseIsRefusedBesideWhatLeavesItOut) {
       about_earth +
       "[deputy]\nposition_m = [0, 1000, 0]\n[uncertainty]\nposition_m = [1, 1, 1]\n"
       "acceleration_density_m2_s3 = 1e-6\n";
-  EXPECT_NO_THROW(scene_with(noisy.substr(about_earth.size())));
+  EXPECT_NO_THROW(scene_with_tables(noisy.substr(about_earth.size())));
   expect_scene_error(
       noisy + "[uncertainty.collision]\nradius_m = 10\n",
       {"uncertainty.acceleration_density_m2_s3", "not beside [uncertainty.collision]"});

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "formation_scenes.hpp"
+#include "studies/exact_flow.hpp"
 #include "support/errors.hpp"
 #include "support/reference_data.hpp"
 
@@ -244,14 +245,35 @@ TEST(LinearFlow, BetweenCheckpointsIsTheFlow) {
   EXPECT_EQ(coarse.at(0), LinearFlow::StateTransition::Identity(6, 6));
 }
 
-// The limit is 100 000 checkpoints, 417 revolutions of 240: twice as much is refused in the first
+// Expected: the flow over one time alone, in a single adaptive integration from the start. What the
+// step to a checkpoint rounds is magnified as deviations are.
+TEST(LinearFlow, BetweenCloseCheckpointsIsTheFlowToRounding) {
+  Scene eccentric = kepler_chief(0.9, 7000, 1000, 1);
+  eccentric.nominal = {-1, 0, 0, 0, -std::sqrt(0.1), 0};  // mu = 1, r = 1 at apogee
+  for (const Scene& scene : {paper_chief(1), eccentric}) {
+    const ComputedProblem problem = make_problem(scene);
+    const LinearFlow flow(problem, 5, 240);
+    for (const double time : {0.003, 0.7, 1.19, 2.222, 3.8, 4.9999}) {
+      SCOPED_TRACE(time);
+      const LinearFlow direct(problem, time, 1);
+      const LinearFlow::StateTransition& expected = direct.checkpoint(direct.times().size() - 1);
+      EXPECT_LT((flow.at(time) - expected).norm(), 1e-12 * expected.norm());
+      const std::vector<double> nominal = flow.nominal(time);
+      const std::vector<double> flown =
+          exact_flow(problem.system, problem.nominal, problem.start_time, time);
+      for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(nominal[i], flown[i], 2e-12) << i;
+    }
+  }
+}
+
+// The limit is 500 000 checkpoints, 2083 revolutions of 240: twice as much is refused in the first
 // twentieth of the work, a tenth more in a fifth.
 TEST(LinearFlow, ASpanThatIsTooLongIsRefusedAtOnce) {
   const ComputedProblem problem = make_problem(kepler_chief(0.3, 7000, 1000, 1));
   for (const auto& [times, part] : std::map<double, double>{{2, 0.05}, {1.1, 0.2}}) {
     double done = 0;
-    test::expect_error(ErrorKind::too_large, "more than 100000 checkpoints", [&, times = times] {
-      LinearFlow(problem, times * 417 * paper_period, 240, [&](double now) { done = now; });
+    test::expect_error(ErrorKind::too_large, "more than 500000 checkpoints", [&, times = times] {
+      LinearFlow(problem, times * 2083 * paper_period, 240, [&](double now) { done = now; });
     });
     EXPECT_LT(done, part);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hamjet/charts/flow_section.hpp"
@@ -74,7 +75,8 @@ FlowBoxMap<Real> flow_box_map(const ZonalGravity& field,
 /// The states on the start's section are integrated by a Gauss method, each orbit in units of its
 /// own period. So neighbouring orbits stay side by side, although at equal times they drift apart
 /// along the orbit. At the end they are carried to the section through the chief's state, which is
-/// near.
+/// near. The steps' tolerance is chosen for the first part of the orbit, and again for one that is
+/// longer.
 template <class Real>
 class FlowBoxPropagation {
  public:
@@ -97,6 +99,8 @@ class FlowBoxPropagation {
   FlowProblem<Real> flow_;
   Series<Real> periods_;
   Real reached_ = 0;
+  std::optional<double> step_tolerance_;  ///< that was chosen for a part
+  double tried_ = 0;                      ///< length of this part
   IntegrationStatistics total_;
 };
 

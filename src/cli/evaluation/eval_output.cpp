@@ -1,5 +1,7 @@
 #include "eval_output.hpp"
 
+#include <fmt/compile.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -44,16 +46,16 @@ void EvalOutput::add(double time_s, const std::vector<double>& state,
                      const MissEstimate& estimate) {
   const bool is_inside = estimate.is_inside();
   const bool is_outside = estimate.support == Support::outside;
-  const auto write = std::back_inserter(csv_);
+  const fmt::appender write(csv_);
   ++rows_;
-  if (has_time_) fmt::format_to(write, "{},", time_s);
+  if (has_time_) fmt::format_to(write, FMT_COMPILE("{},"), time_s);
   for (const double x : state) {
-    if (std::isfinite(x)) fmt::format_to(write, "{}", is_outside ? size_alone(x) : x);
-    fmt::format_to(write, ",");
+    if (std::isfinite(x)) fmt::format_to(write, FMT_COMPILE("{}"), is_outside ? size_alone(x) : x);
+    csv_.push_back(',');
   }
   undefined_ += std::any_of(state.begin(), state.end(), [](double x) { return std::isnan(x); });
-  if (is_inside) fmt::format_to(write, "{:.3g}", estimate.miss_m());
-  fmt::format_to(write, ",{}\n", support_name(estimate.support));
+  if (is_inside) fmt::format_to(write, FMT_COMPILE("{:.3g}"), estimate.miss_m());
+  fmt::format_to(write, FMT_COMPILE(",{}\n"), support_name(estimate.support));
   if (is_inside) largest_miss_ = std::max(largest_miss_.value_or(0), estimate.miss_m());
   outside_ += is_outside ? 1 : 0;
   unknown_ += estimate.support == Support::unknown ? 1 : 0;

@@ -256,10 +256,11 @@ void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics
 
 template <class Real>
 FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
-                                            GaussSettings settings, double step_tolerance) {
+                                            GaussSettings settings, double step_tolerance,
+                                            IntegrationStatistics& statistics) {
   settings.tolerance = step_tolerance;
   settings.profile = nullptr;
-  IntegrationStatistics statistics;
+  statistics = {};
   return run_gauss<Real>(problem, settings, statistics);
 }
 
@@ -272,7 +273,7 @@ template std::optional<StepTolerance<InstantiatedReal>> accept_first_trial(
     std::vector<FlowJet<InstantiatedReal>>, std::vector<FlowJet<InstantiatedReal>>, double);
 template void record_choice(StepTolerance<InstantiatedReal>, IntegrationStatistics&);
 template FlowJet<InstantiatedReal> integrate_with_step_tolerance(
-    const FlowProblem<InstantiatedReal>&, GaussSettings, double);
+    const FlowProblem<InstantiatedReal>&, GaussSettings, double, IntegrationStatistics&);
 template GaussSettings finer_gauss<InstantiatedReal>(const GaussSettings&, double);
 
 }  // namespace hamjet

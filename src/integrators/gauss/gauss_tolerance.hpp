@@ -75,10 +75,11 @@ template <class Real>
 void record_choice(StepTolerance<Real> choice, IntegrationStatistics& statistics);
 
 /// Integrates with the steps of a local tolerance that was chosen before
-/// (IntegrationStatistics::step_tolerance), without a new choice.
+/// (IntegrationStatistics::step_tolerance), without a new choice. No symmetry is left out.
 template <class Real>
 FlowJet<Real> integrate_with_step_tolerance(const FlowProblem<Real>& problem,
-                                            GaussSettings settings, double step_tolerance);
+                                            GaussSettings settings, double step_tolerance,
+                                            IntegrationStatistics& statistics);
 
 /// Settings for an integration that has another order and other steps than one with the given
 /// settings, and a local error a thousand times smaller.

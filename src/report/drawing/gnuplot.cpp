@@ -5,7 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
-#include <sys/socket.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -29,8 +29,19 @@ using Clock = std::chrono::steady_clock;
 
 std::string errno_text(int error) { return std::strerror(error); }  // NOLINT(concurrency-mt-unsafe)
 
-/// A channel to a child. A pair of sockets and not a pipe: writing to a child that has ended must
-/// not raise SIGPIPE in this process.
+/// A file without a name, in memory, from which a child reads the script. Returns 0 or the error.
+int put_into_memory(std::string_view script, Descriptor& file) {
+  file = Descriptor(::memfd_create("gnuplot script", MFD_CLOEXEC));
+  if (!file.is_open()) return errno;
+  while (!script.empty()) {
+    const ssize_t count = ::write(file.value(), script.data(), script.size());
+    if (count < 0 && errno != EINTR) return errno;
+    if (count > 0) script.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return ::lseek(file.value(), 0, SEEK_SET) == 0 ? 0 : errno;
+}
+
+/// A channel from a child.
 struct Channel {
   Descriptor ours;
   Descriptor theirs;
@@ -38,7 +49,7 @@ struct Channel {
   /// Returns 0 or the error.
   int open() {
     std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return errno;
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return errno;
     ours = Descriptor(ends[0]);
     theirs = Descriptor(ends[1]);
     ::fcntl(ours.value(), F_SETFL, O_NONBLOCK);
@@ -67,19 +78,15 @@ int start(const std::string& program, const std::array<int, 3>& streams, pid_t& 
                            POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::string name = program;
   std::string without_settings = "--default-settings";
-  const std::array<char*, 3> arguments = {name.data(), without_settings.data(), nullptr};
+  // gnuplot reads standard input itself byte by byte, but a file, by whatever name, in one piece.
+  std::string script = "/dev/stdin";
+  const std::array<char*, 4> arguments = {name.data(), without_settings.data(), script.data(),
+                                          nullptr};
   const int error =
       ::posix_spawnp(&child, program.c_str(), &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
-}
-
-void send_some(Descriptor& to, std::string_view& text) {
-  const ssize_t sent = ::send(to.value(), text.data(), text.size(), MSG_NOSIGNAL);
-  if (sent > 0) text.remove_prefix(static_cast<std::size_t>(sent));
-  const bool is_broken = sent < 0 && errno != EINTR && errno != EAGAIN;
-  if (is_broken || text.empty()) to.close();
 }
 
 void receive_some(Descriptor& from, std::string& text) {
@@ -93,28 +100,29 @@ void receive_some(Descriptor& from, std::string& text) {
 /// The child and the channels to it.
 struct Child {
   pid_t process = 0;
-  Channel input;
   Channel output;
   Channel errors;
 
-  /// Starts the program; returns 0 or the error.
-  int start(const std::string& program) {
-    for (Channel* channel : {&input, &output, &errors}) {
+  /// Starts the program with the script; returns 0 or the error.
+  int start(const std::string& program, std::string_view script) {
+    Descriptor input;
+    if (const int error = put_into_memory(script, input)) return error;
+    for (Channel* channel : {&output, &errors}) {
       if (const int error = channel->open()) return error;
     }
-    const int error = io::start(
-        program, {input.theirs.value(), output.theirs.value(), errors.theirs.value()}, process);
-    for (Channel* channel : {&input, &output, &errors}) channel->theirs.close();
+    const int error =
+        io::start(program, {input.value(), output.theirs.value(), errors.theirs.value()}, process);
+    for (Channel* channel : {&output, &errors}) channel->theirs.close();
     return error;
   }
 
   /// Starts it once more as long as the system lacks what it may have in a moment.
-  int start_patiently(const std::string& program) {
+  int start_patiently(const std::string& program, std::string_view script) {
     constexpr int attempts = 5;
     auto pause = std::chrono::milliseconds(20);
     for (int attempt = 1;; ++attempt, pause *= 2) {
       *this = {};
-      const int error = start(program);
+      const int error = start(program, script);
       const bool may_pass =
           error == EAGAIN || error == EMFILE || error == ENFILE || error == ENOMEM;
       if (!may_pass || attempt == attempts) return error;
@@ -157,21 +165,18 @@ class Patience {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Feeds the script and collects both outputs until they are closed. Returns what the child took
-/// too much of, or nothing.
-std::string converse(Child& child, std::string_view script, GnuplotOutcome& outcome,
-                     const Patience& patience) {
+/// Collects both outputs until they are closed. Returns what the child took too much of, or
+/// nothing.
+std::string listen_to(Child& child, GnuplotOutcome& outcome, const Patience& patience) {
   constexpr int interval_ms = 50;
   while (child.output.ours.is_open() || child.errors.ours.is_open()) {
     if (std::string exceeded = patience.exceeded(child); !exceeded.empty()) return exceeded;
     // A closed descriptor is -1, which poll leaves out.
-    std::array<pollfd, 3> events = {{{child.input.ours.value(), POLLOUT, 0},
-                                     {child.output.ours.value(), POLLIN, 0},
-                                     {child.errors.ours.value(), POLLIN, 0}}};
+    std::array<pollfd, 2> events = {
+        {{child.output.ours.value(), POLLIN, 0}, {child.errors.ours.value(), POLLIN, 0}}};
     if (::poll(events.data(), events.size(), interval_ms) <= 0) continue;
-    if (events[0].revents != 0) send_some(child.input.ours, script);
-    if (events[1].revents != 0) receive_some(child.output.ours, outcome.output);
-    if (events[2].revents != 0) receive_some(child.errors.ours, outcome.problem);
+    if (events[0].revents != 0) receive_some(child.output.ours, outcome.output);
+    if (events[1].revents != 0) receive_some(child.errors.ours, outcome.problem);
   }
   return "";
 }
@@ -213,7 +218,7 @@ GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
                            const GnuplotLimits& limits) {
   GnuplotOutcome outcome;
   Child child;
-  if (const int error = child.start_patiently(program)) {
+  if (const int error = child.start_patiently(program, script)) {
     outcome.is_started = false;
     outcome.problem = error == ENOENT
                           ? fmt::format("{} is not installed, so there are no plots", program)
@@ -223,7 +228,7 @@ GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
   }
   const Patience patience(limits);
   int status = 0;
-  std::string exceeded = converse(child, script, outcome, patience);
+  std::string exceeded = listen_to(child, outcome, patience);
   if (exceeded.empty()) exceeded = wait_for(child, status, patience);
   if (!exceeded.empty()) {
     ::kill(-child.process, SIGKILL);

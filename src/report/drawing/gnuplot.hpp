@@ -22,9 +22,10 @@ struct GnuplotLimits {
   std::chrono::milliseconds whole{120'000};
 };
 
-/// Runs gnuplot as a child process, without a shell: the script goes in by its standard input, the
-/// drawing comes out by its standard output. A child that takes longer than a limit is ended. What
-/// the system refuses for a moment, processes or descriptors, is asked for again within a second.
+/// Runs gnuplot as a child process, without a shell: its standard input is a file in memory with
+/// the script, which is its argument too, and the drawing comes out by its standard output. A child
+/// that takes longer than a limit is ended. What the system refuses for a moment, processes or
+/// descriptors, is asked for again within a second.
 GnuplotOutcome run_gnuplot(const std::string& program, std::string_view script,
                            const GnuplotLimits& limits = {});
 

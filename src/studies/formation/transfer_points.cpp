@@ -108,8 +108,9 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
 
 std::optional<double> TransferPoints::singular_distance(double time) const {
   std::optional<double> nearest;
+  // Those of the first kind are the first.
   for (const SingularTime& singular : singular_times_) {
-    if (singular.kind != kinds_.front()) continue;
+    if (singular.kind != kinds_.front()) break;
     const double distance = std::abs(singular.time - time);
     nearest = std::min(nearest.value_or(distance), distance);
   }

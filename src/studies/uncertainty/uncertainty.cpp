@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "../../algebra/singular_values.hpp"
 #include "../../integrators/taylor_flow.hpp"
@@ -94,30 +95,43 @@ Matrix<double> stretched_factor(const Covariance& covariance, const Matrix<doubl
   return covariance.factor() * parts.right.topLeftCorner(stretched.cols(), stretched.cols());
 }
 
-/// The distribution that a flow's polynomials up to a degree give, at the nodes of a quadrature;
-/// none where one of them has no place in the coordinates.
-std::optional<Cumulants> moments_through(const DeputyFlow& flow, int degree,
-                                         const InitialState& start, const Matrix<double>& factor,
-                                         const std::vector<int>& nodes) {
+/// The distributions that a flow's polynomials up to each degree from 1 give, at the nodes of a
+/// quadrature; none where one of them has no place in the coordinates.
+std::vector<std::optional<Cumulants>> moments_through(const DeputyFlow& flow, int order,
+                                                      const InitialState& start,
+                                                      const Matrix<double>& factor,
+                                                      const std::vector<int>& nodes) {
+  constexpr std::size_t at_once = 512;  // few enough for their predictions to stay in the cache
   const std::vector<int> of_factor(nodes.begin(), nodes.begin() + factor.cols());
   const NormalQuadrature rule = product_quadrature(of_factor);
   const auto count = static_cast<std::size_t>(rule.weights.size());
   const Matrix<double> initial = (factor * rule.points).colwise() + start.mean;
-  std::vector<SixNumbers<double>> deviations(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    std::copy_n(initial.col(static_cast<Eigen::Index>(k)).data(), 6, deviations[k].begin());
-  }
-  std::vector<DeputyPrediction> predictions(count);
-  flow.predict(deviations, degree, predictions);
-  Matrix<double> points(6, static_cast<Eigen::Index>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          predictions[k].deviation[i];
+  std::vector<int> degrees(static_cast<std::size_t>(order));
+  std::iota(degrees.begin(), degrees.end(), 1);
+  std::vector<Matrix<double>> points(degrees.size(), Matrix<double>(6, initial.cols()));
+  DeputyPredictor predictor(flow);
+  std::vector<SixNumbers<double>> deviations;
+  std::vector<DeputyPrediction> predictions;
+  for (std::size_t first = 0; first < count; first += at_once) {
+    deviations.resize(std::min(at_once, count - first));
+    predictions.resize(deviations.size() * degrees.size());
+    for (std::size_t k = 0; k < deviations.size(); ++k) {
+      std::copy_n(initial.col(static_cast<Eigen::Index>(first + k)).data(), 6,
+                  deviations[k].begin());
+    }
+    predictor.predict(deviations, degrees, predictions);
+    for (std::size_t p = 0; p < predictions.size(); ++p) {
+      const auto column = static_cast<Eigen::Index>(first + p % deviations.size());
+      std::copy_n(predictions[p].deviation.begin(), 6,
+                  points[p / deviations.size()].col(column).data());
     }
   }
-  if (!points.allFinite()) return std::nullopt;
-  return Cumulants::of_points(points, rule.weights);
+  std::vector<std::optional<Cumulants>> moments;
+  for (const Matrix<double>& of_degree : points) {
+    moments.emplace_back();
+    if (of_degree.allFinite()) moments.back() = Cumulants::of_points(of_degree, rule.weights);
+  }
+  return moments;
 }
 
 /// The jets of one spacecraft about its own mean, from time to time.
@@ -168,17 +182,19 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   if (flow) {
     state.charted = charted_moments(coordinates, period_place, start, jet, noise);
     const Matrix<double> factor = stretched_factor(start.covariance, linear_part(jet));
-    for (int n = 1; n <= order && factor.cols() > 0; ++n) {
-      const auto fine = moments_through(*flow, n, start, factor, finer_nodes);
-      const auto coarse = moments_through(*flow, n, start, factor, coarser_nodes);
-      if (!fine || !coarse) {
-        state.through.clear();
-        break;
+    if (factor.cols() > 0) {
+      const auto fine = moments_through(*flow, order, start, factor, finer_nodes);
+      const auto coarse = moments_through(*flow, order, start, factor, coarser_nodes);
+      for (std::size_t n = 0; n < fine.size(); ++n) {
+        if (!fine[n] || !coarse[n]) {
+          state.through.clear();
+          break;
+        }
+        state.through.push_back(*fine[n]);
+        const MomentsDifference doubt = difference_of(*fine[n], *coarse[n]);
+        state.through_doubt =
+            std::max({state.through_doubt, doubt.deviation, doubt.skewness, doubt.kurtosis});
       }
-      state.through.push_back(*fine);
-      const MomentsDifference doubt = difference_of(*fine, *coarse);
-      state.through_doubt =
-          std::max({state.through_doubt, doubt.deviation, doubt.skewness, doubt.kurtosis});
     }
     told_of_start(state.through, start);
   }

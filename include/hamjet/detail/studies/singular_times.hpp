@@ -13,9 +13,11 @@
 namespace hamjet {
 
 /// The linear part of a flow, 2n x 2n, at any time of a span: from checkpoints of one propagation,
-/// and a short integration from the last checkpoint before the time. It is integrated to a local
-/// error of 1e-14, independent of the scene's integrators. Momenta are in units of
-/// 2^momentum_exponent of the problem, so that singular values do not depend on the unit of length.
+/// integrated to a local error of 1e-14, independent of the scene's integrators. Between
+/// checkpoints that are close enough it is the polynomial through the ten nearest, which differs
+/// from the flow by less than rounding; elsewhere it is a short integration from the last
+/// checkpoint before the time. Momenta are in units of 2^momentum_exponent of the problem, so that
+/// singular values do not depend on the unit of length.
 class LinearFlow {
  public:
   using StateTransition = Matrix<double>;
@@ -24,9 +26,9 @@ class LinearFlow {
   /// equations: it is 2 sqrt(2) pi / (|lambda| `per_revolution`). A circular orbit thus has
   /// `per_revolution` checkpoints per revolution, and on other orbits the distance is proportional
   /// to r^(3/2). It is never larger than the span over `per_revolution`, or than twice the last
-  /// distance. The problem must outlive this object. Throws Error(usage) unless it is expanded in
-  /// all variables, Error(too_large) beyond 100 000 checkpoints, Error(numerical) as
-  /// integrate_gauss.
+  /// distance. Checkpoints of a thirtieth of a revolution are equally far apart. The problem must
+  /// outlive this object. Throws Error(usage) unless it is expanded in all variables,
+  /// Error(too_large) beyond 500 000 checkpoints, Error(numerical) as integrate_gauss.
   LinearFlow(const ComputedProblem& problem, double duration, double per_revolution,
              const std::function<void(double)>& progress = {});
 
@@ -44,12 +46,15 @@ class LinearFlow {
  private:
   double checkpoint_distance(const std::vector<double>& state, double time,
                              double per_revolution) const;
+  /// Finds the intervals between checkpoints in which the polynomial through the nearest is right.
+  void find_interpolated();
 
   const ComputedProblem* problem_;
   SpacePointer space_;  ///< space of order 1
   std::vector<double> times_;
   std::vector<std::vector<double>> states_;
   std::vector<StateTransition> matrices_;
+  std::vector<bool> is_interpolated_;  ///< by the checkpoint before a time
 };
 
 /// The block of a linear flow that a kind inverts, n x n.

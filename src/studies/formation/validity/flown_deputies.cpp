@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "../../exact_flow.hpp"
 #include "../../random_direction.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
@@ -61,7 +60,7 @@ Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
   for (std::size_t i = 0; i < start.size(); ++i) deputy[i] += start[i];
   std::vector<double> flown;
   try {
-    flown = exact_flow(problem_.system, deputy, problem_.start_time, time_);
+    flown = flights_.end(deputy, problem_.start_time, time_);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     return Vector6::Constant(std::numeric_limits<double>::infinity());

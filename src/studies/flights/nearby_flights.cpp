@@ -1,0 +1,29 @@
+#include "nearby_flights.hpp"
+
+#include <cmath>
+
+#include "../../integrators/gauss/gauss_tolerance.hpp"
+#include "../exact_flow.hpp"
+
+namespace hamjet {
+
+std::vector<double> NearbyFlights::end(const std::vector<double>& start,
+                                       const ClockTime& start_time, double duration) {
+  const FlowProblem<double> problem = trajectory_problem(system_, start, start_time, duration);
+  const GaussSettings settings = exact_gauss();
+  IntegrationStatistics statistics;
+  if (!needs_choice(problem, settings)) {
+    return nominal_of(integrate_gauss(problem, settings, statistics));
+  }
+  if (step_tolerance_ && std::abs(duration) <= tried_) {
+    validate(problem);
+    return nominal_of(
+        integrate_with_step_tolerance(problem, settings, *step_tolerance_, statistics));
+  }
+  const FlowJet<double> jet = integrate_gauss(problem, settings, statistics);
+  step_tolerance_ = statistics.step_tolerance;
+  tried_ = std::abs(duration);
+  return nominal_of(jet);
+}
+
+}  // namespace hamjet

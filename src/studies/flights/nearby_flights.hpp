@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hamjet/dynamics/clock_time.hpp"
+#include "hamjet/dynamics/dynamical_system.hpp"
+
+namespace hamjet {
+
+/// exact_flow for many states near one orbit. Where short waves of the field make Gauss's method
+/// try the tolerance of its steps, which takes longer than the flight itself, this is done for the
+/// first flight, and again for one that is longer than any before; the others take the tolerance
+/// that was found. An object is for one thread.
+class NearbyFlights {
+ public:
+  explicit NearbyFlights(SharedSystem system) : system_(std::move(system)) {}
+
+  /// As exact_flow.
+  std::vector<double> end(const std::vector<double>& start, const ClockTime& start_time,
+                          double duration);
+
+ private:
+  SharedSystem system_;
+  std::optional<double> step_tolerance_;
+  double tried_ = 0;  ///< length of the flight for which it was found
+};
+
+}  // namespace hamjet
