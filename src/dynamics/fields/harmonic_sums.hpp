@@ -7,9 +7,9 @@
 
 #include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/algebra/pack.hpp"
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 #include "local_polynomial.hpp"
 #include "plane_polynomial.hpp"
-#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 
 // A field of spherical harmonics as local polynomial. Lengths are in units of the distance r of the
 // point, so that the point is a unit vector e = (x, y, z) and R the number kappa = R/r. The field
@@ -131,16 +131,16 @@ class HarmonicSums {
         take_column(m, scratch_.column[0].data());
         if (m > 0) take_column(m - 1, scratch_.column[1].data());
       }
-      scratch_.growing.reset(K_);
+      scratch_.plane.reset(K_);
       for (int a = 0; a <= std::min(K_, 1); ++a) {
         substitute(a);
-        to_monomials(a, scratch_.growing.slope[static_cast<std::size_t>(a)]);
+        to_monomials(a, scratch_.plane.slope[static_cast<std::size_t>(a)]);
       }
-      // The large central term comes last, so that it is rounded with few sums.
-      scratch_.growing.slope[0][0] += P(sums_.central_);
-      kelvin_transform(point_, K_, scratch_.growing, scratch_.decaying);
+      kelvin_transform(point_, K_, scratch_.factors, scratch_.plane);
+      // The central term has a recursion of its own, which loses no digit at any degree.
+      add_inverse_distance(point_, K_, P(sums_.central_), scratch_.inverse, scratch_.plane);
       for (int a = 0; a <= std::min(K_, 1); ++a) {
-        const std::vector<P>& from = scratch_.decaying.slope[static_cast<std::size_t>(a)];
+        const std::vector<P>& from = scratch_.plane.slope[static_cast<std::size_t>(a)];
         for (int n = 0; n + a <= K_; ++n) {
           for (int j = 0; j <= n; ++j) out[local_index(n - j, j, a)] = from[plane_index(n, j)];
         }
@@ -154,8 +154,9 @@ class HarmonicSums {
       std::vector<P> powers;
       std::vector<P> state;
       std::vector<Real> inverses;
-      PlanePolynomial<P> growing;
-      PlanePolynomial<P> decaying;
+      PlanePolynomial<P> plane;
+      PlanePolynomial<P> inverse;
+      std::vector<PlanePolynomial<P>> factors;
     };
     static Scratch& scratch_of_thread() {
       static thread_local Scratch scratch;
