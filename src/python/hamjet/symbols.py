@@ -44,8 +44,12 @@ class Symbol:
     """A variable, or what was computed from variables. Operators, powers, and NumPy's functions
     give further symbols; what needs a number, such as math.sin, float(), or a branch, raises."""
 
-    __slots__ = ("_kind", "_operands", "_uses", "_depth")
+    __slots__ = ("_kind", "_operands", "_depth")
     __array_priority__ = 1000
+
+    _kind: str
+    _operands: tuple[Any, ...]
+    _depth: int
 
     def __init__(self, kind: str, operands: tuple[Any, ...]) -> None:
         self._kind = kind
@@ -140,7 +144,7 @@ _FUNCTIONS = {name: name for name in ("sqrt", "exp", "log", "sin", "cos", "tan",
                                       "tanh")}
 _FUNCTIONS.update(arcsin="asin", arccos="acos", arctan="atan", arctan2="atan2")
 
-_MADE_OF_OTHERS: dict[str, Callable[..., Any]] = {
+_MADE_OF_OTHERS: dict[str, Callable[..., Symbol]] = {
     "add": lambda a, b: _binary("+", a, b),
     "subtract": lambda a, b: _binary("-", a, b),
     "multiply": lambda a, b: _binary("*", a, b),
@@ -167,7 +171,7 @@ _MADE_OF_OTHERS: dict[str, Callable[..., Any]] = {
 }
 
 
-def call(name: str, arguments: Iterable[Any]) -> Any:
+def call(name: str, arguments: Iterable[Any]) -> Symbol:
     """A function of NumPy on symbols, or on symbols and numbers."""
     if name in _FUNCTIONS:
         return Symbol(_FUNCTIONS[name], tuple(_operand(a) for a in arguments))
