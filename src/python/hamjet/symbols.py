@@ -144,7 +144,7 @@ _FUNCTIONS = {name: name for name in ("sqrt", "exp", "log", "sin", "cos", "tan",
                                       "tanh")}
 _FUNCTIONS.update(arcsin="asin", arccos="acos", arctan="atan", arctan2="atan2")
 
-_MADE_OF_OTHERS: dict[str, Callable[..., Symbol]] = {
+_MADE_OF_OTHERS: dict[str, Callable[..., Any]] = {
     "add": lambda a, b: _binary("+", a, b),
     "subtract": lambda a, b: _binary("-", a, b),
     "multiply": lambda a, b: _binary("*", a, b),
@@ -176,7 +176,8 @@ def call(name: str, arguments: Iterable[Any]) -> Symbol:
     if name in _FUNCTIONS:
         return Symbol(_FUNCTIONS[name], tuple(_operand(a) for a in arguments))
     if name in _MADE_OF_OTHERS:
-        return _MADE_OF_OTHERS[name](*arguments)
+        made: Symbol = _MADE_OF_OTHERS[name](*arguments)
+        return made
     if name in ("less", "less_equal", "greater", "greater_equal", "equal", "not_equal", "maximum",
                 "minimum", "fmax", "fmin", "logical_and", "logical_or", "logical_not", "isfinite"):
         raise UsageError(_BRANCH.format(f"numpy.{name} of a symbol"))
