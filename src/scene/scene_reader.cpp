@@ -8,6 +8,7 @@
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
 #include "scene_earth.hpp"
+#include "scene_own_system.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
