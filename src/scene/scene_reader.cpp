@@ -7,9 +7,9 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
-#include "scene_earth.hpp"
-#include "scene_own_system.hpp"
 #include "scene_relative_motion.hpp"
+#include "systems/scene_earth.hpp"
+#include "systems/scene_own_system.hpp"
 
 namespace hamjet::io {
 namespace {

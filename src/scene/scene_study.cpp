@@ -7,10 +7,10 @@
 #include "document/scene_document.hpp"
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
-#include "scene_earth.hpp"
 #include "scene_name.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <variant>
 
-#include "../store/text_file.hpp"
-#include "../studies/descriptions/system_description.hpp"
+#include "../../store/text_file.hpp"
+#include "../../studies/descriptions/system_description.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
 #include "scene_earth.hpp"
 #include "scene_earth_field.hpp"
 #include "scene_own_system.hpp"
-#include "scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

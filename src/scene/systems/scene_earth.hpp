@@ -3,10 +3,10 @@
 #include <string_view>
 #include <vector>
 
+#include "../scene_nominal_file.hpp"
+#include "../tables/scene_table.hpp"
 #include "hamjet/astronomy/instant.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
-#include "scene_nominal_file.hpp"
-#include "tables/scene_table.hpp"
 
 // The model `earth`: the keys of [system] and [nominal] that say which forces act, at which moment
 // the scene starts, and in which axes its orbits are given.

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
-#include "scene_sections.hpp"
 #include "shipped_gravity_field.hpp"
 
 namespace hamjet::io {

@@ -6,15 +6,15 @@
 #include <array>
 #include <cmath>
 
-#include "../dynamics/fields/spherical_harmonic_field.hpp"
-#include "../store/sealed_summary.hpp"
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../dynamics/fields/spherical_harmonic_field.hpp"
+#include "../../store/sealed_summary.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/earth_orientation_file.hpp"
 #include "scene_earth_field.hpp"
-#include "scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "../studies/descriptions/system_description.hpp"
-#include "scene_sections.hpp"
+#include "../../studies/descriptions/system_description.hpp"
+#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "../tables/scene_table.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "tables/scene_table.hpp"
 
 // The model `own`: a system whose scene writes its Hamiltonian or its vector field.
 
