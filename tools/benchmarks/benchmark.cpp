@@ -25,7 +25,10 @@ int main(int argc, char** argv) {
   if (wanted("orders")) benchmark_orders();
   if (wanted("savings")) benchmark_savings();
   if (wanted("zonals")) benchmark_zonals();
-  if (wanted("fields")) benchmark_fields();
+  if (wanted("fields")) {
+    benchmark_fields();
+    benchmark_earth_maps();
+  }
   if (wanted("arcs")) benchmark_arcs();
   if (wanted("many")) benchmark_many();
 }

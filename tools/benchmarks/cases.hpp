@@ -48,6 +48,7 @@ void benchmark_orders();
 void benchmark_savings();
 void benchmark_zonals();
 void benchmark_fields();
+void benchmark_earth_maps();
 void benchmark_arcs();
 void benchmark_many();
 

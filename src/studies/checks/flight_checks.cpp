@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "../../algebra/state_sums.hpp"
 #include "../energy_error.hpp"
@@ -24,19 +25,24 @@ struct FlightOutcome {
   double energy_change = 0;  ///< relative
 };
 
-FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight) {
+FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight,
+                         bool measures_energy) {
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  EnergyError energy(*system, flight.start, flight.start_time);
-  // If terms cancel, their sum is no scale for the change.
-  energy.value(extended(flight.start), flight.start_time);
-  const double scale = std::max(std::abs(static_cast<double>(energy.initial())),
-                                energy.terms(extended(flight.start)) / 100);
+  std::optional<EnergyError> energy;
+  double scale = 0;
+  if (measures_energy) {
+    energy.emplace(*system, flight.start, flight.start_time);
+    // If terms cancel, their sum is no scale for the change.
+    scale = std::max(std::abs(static_cast<double>(energy->initial())),
+                     energy->terms(extended(flight.start)) / 100);
+  }
   FlightOutcome outcome;
   fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
     least.add(arc, place_along(arc, 0));
+    if (!energy) return;
     const Extended change =
-        energy.value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
-        energy.initial();
+        energy->value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
+        energy->initial();
     const double size = std::abs(static_cast<double>(change)) / scale;
     if (!(size <= outcome.energy_change)) outcome.energy_change = size;
   });
@@ -142,7 +148,7 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
   lowest.distance = std::numeric_limits<double>::infinity();
   for (const CheckedFlight& flight : flights) {
     try {
-      const FlightOutcome outcome = outcome_of(system, flight);
+      const FlightOutcome outcome = outcome_of(system, flight, is_on(energy));
       if (!(outcome.energy_change <= change)) {
         change = outcome.energy_change;
         leaving = &flight;
