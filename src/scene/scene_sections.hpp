@@ -197,6 +197,10 @@ OutputSettings read_output(const TableReader& output, SystemModel model);
 /// Reads a required key of any table whose value is a moment of the calendar; and the declared form
 /// of such a key.
 Epoch read_epoch(const TableReader& table, std::string_view key);
+
+/// Refuses a date within a leap second in another time system than UTC, which alone has them.
+void require_leap_second(const TableReader& table, std::string_view key, const Epoch& epoch,
+                         TimeSystem system);
 ValueForm form_of_epoch();
 
 /// Table `[ephemeris]`. What is known of time, frame and centre, from the nominal's file or from

@@ -147,9 +147,16 @@ void read_gravity_file(const TableReader& root, SystemSettings& settings) {
     }
   }
   const ZonalChoice choice = read_zonal_choice(root);
-  const GravityField field = parse_gravity_field(
-      printable_path(system.path_beside_scene("gravity_file")),
-      system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
+  const std::string name = printable_path(system.path_beside_scene("gravity_file"));
+  const std::string text = system.content_beside_scene("gravity_file", largest_gravity_field_bytes);
+  const int max_degree = parse_gravity_model(name, text).max_degree;
+  const int degree = choice.degrees.empty() ? choice.highest : choice.degrees.back();
+  if (degree > max_degree) {
+    system.fail(choice.degrees.empty() ? "highest_zonal" : "zonals",
+                fmt::format("beyond the file's, got {}, must be at most {}, the max_degree of {}",
+                            degree, max_degree, name));
+  }
+  const GravityField field = parse_gravity_field(name, text, choice);
   require_centre_of_mass(system, field.origin_offset_km, field.radius_km);
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
