@@ -13,8 +13,8 @@
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/formats/orbit_message_axes.hpp"
-#include "scene_earth.hpp"
 #include "scene_nominal_file.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

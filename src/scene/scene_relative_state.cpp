@@ -15,9 +15,9 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
-#include "scene_earth.hpp"
 #include "scene_orbit.hpp"
 #include "scene_relative_motion.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {
