@@ -160,7 +160,7 @@ inline const std::map<std::string, Place>& special_places() {
       {"system.gravity_order", {"", {}, "5"}},
       {"system.orientation_file",
        {"",
-        {{"nominal.epoch_utc", "\"2010-07-20T00:00:00\""}, {"jet.duration_s", "1000"}},
+        {{"nominal.epoch_utc", "\"2010-07-18T12:00:00\""}, {"jet.duration_s", "1000"}},
         "\"../../../tests/fuzz/corpus/earth_orientation/plain.txt\""}},
       {"system.tide_system",
        {"", {{"system.gravity_file", "\"../../gravity/EGM96-to-20.gfc\""}}, "\"tide_free\""}},

@@ -89,7 +89,7 @@ TEST_F(BadEarth, Epochs) {
        {key + " = \"" + date + "\"\n", "", {"bad.toml:5:1: nominal: no epoch", "epoch_tt"}},
        {key,
         "epoch_tt = \"2023-05-16T06:01:09.184\"\nepoch_utc",
-        {"bad.toml:7:13: nominal.epoch_utc: a second epoch, got epoch_utc and epoch_tt"}},
+        {"bad.toml:6:12: nominal.epoch_tt: a second epoch, got epoch_utc and epoch_tt"}},
        {date,
         "1959-12-31T00:00:00",
         {"bad.toml:6:13: nominal.epoch_utc: a date at which", "must be from 1960-01-01"}},
