@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
-#include "formation_scenes.hpp"
+#include "../formation_scenes.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "support/driven_kepler.hpp"
 
@@ -44,5 +45,12 @@ inline std::vector<double> driven_deputy() {
   for (std::size_t i = 0; i < 6; ++i) state[i] += deviation[i];
   return state;
 }
+
+inline std::vector<double> chief_at(const Scene& scene, double time) {
+  return test::driven_flight(scene.nominal, scene.start_time.in<double>(), time);
+}
+
+/// Metres that flights and their comparison may leave.
+inline constexpr double flown_m = 3e-3;
 
 }  // namespace hamjet
