@@ -87,6 +87,14 @@ Eigen::Matrix<double, 6, 6> AxesChange::of_state() const {
   return result;
 }
 
+Eigen::Matrix<double, 6, 6> AxesChange::of_covariance(
+    const Eigen::Matrix<double, 6, 6>& covariance) const {
+  const Eigen::Matrix<double, 6, 6> change = of_state();
+  const Eigen::Matrix<double, 6, 6> turned = change * covariance * change.transpose();
+  // Rounding must not leave the two halves different.
+  return (turned + turned.transpose()) / 2;
+}
+
 AxesChange AxesChange::inverse() const { return {rotation.transpose(), rate.transpose()}; }
 
 AxesChange AxesChange::followed_by(const AxesChange& other) const {

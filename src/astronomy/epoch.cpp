@@ -15,9 +15,7 @@ using std::chrono::sys_days;
 using std::chrono::year;
 using std::chrono::year_month_day;
 
-constexpr std::int64_t picoseconds_per_second = 1'000'000'000'000;
 constexpr std::int64_t seconds_per_day = 86'400;
-constexpr std::int64_t picoseconds_per_day = seconds_per_day * picoseconds_per_second;
 constexpr std::size_t most_digits = 12;
 
 constexpr sys_days first_day = sys_days(year(1) / 1 / 1);
@@ -80,6 +78,13 @@ std::optional<std::int64_t> take_fraction(std::string_view& text) {
 const std::vector<std::string_view>& time_system_names() {
   static const std::vector<std::string_view> names = {"UTC", "TAI", "TT", "GPS", "TDB"};
   return names;
+}
+
+std::optional<TimeSystem> time_system_named(std::string_view name) {
+  const auto& names = time_system_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<TimeSystem>(found - names.begin());
 }
 
 const std::vector<sys_days>& days_with_leap_second() {

@@ -16,10 +16,8 @@ using std::chrono::sys_days;
 using std::chrono::year;
 using std::chrono::year_month_day;
 
-constexpr std::int64_t ps_per_s = 1'000'000'000'000;
-constexpr std::int64_t ps_per_day = 86'400 * ps_per_s;
-constexpr std::int64_t tt_minus_tai_ps = 32'184 * (ps_per_s / 1000);
-constexpr std::int64_t tai_minus_gps_ps = 19 * ps_per_s;
+constexpr std::int64_t tt_minus_tai_ps = 32'184 * (picoseconds_per_second / 1000);
+constexpr std::int64_t tai_minus_gps_ps = 19 * picoseconds_per_second;
 
 constexpr sys_days first_day_of_utc = sys_days(year(1960) / 1 / 1);
 /// From this day on UTC differs from TAI by whole seconds.
@@ -30,9 +28,9 @@ constexpr double julian_date_of_1970 = 2440587.5;
 /// Takes whole days out of the picoseconds. Within a leap second there is none to take out, so that
 /// this is for systems without them.
 Epoch normalised(sys_days day, std::int64_t picoseconds) {
-  std::int64_t whole = picoseconds / ps_per_day;
-  if (picoseconds % ps_per_day < 0) --whole;
-  return {day + days(whole), picoseconds - whole * ps_per_day};
+  std::int64_t whole = picoseconds / picoseconds_per_day;
+  if (picoseconds % picoseconds_per_day < 0) --whole;
+  return {day + days(whole), picoseconds - whole * picoseconds_per_day};
 }
 
 /// TAI - UTC in seconds at this part of a day of UTC, and ERFA's word on it: 1 for a year so far
@@ -55,15 +53,16 @@ void require_utc(sys_days day) {
 
 std::int64_t offset_ps(sys_days day, std::int64_t picoseconds) {
   double offset = 0;
-  const double fraction =
-      std::clamp(static_cast<double>(picoseconds) / ps_per_day, 0.0, std::nextafter(1.0, 0.0));
+  const double fraction = std::clamp(static_cast<double>(picoseconds) / picoseconds_per_day, 0.0,
+                                     std::nextafter(1.0, 0.0));
   dat(day, day >= first_day_of_leap_seconds ? 0.0 : fraction, offset);
-  return std::llround(offset * ps_per_s);
+  return std::llround(offset * picoseconds_per_second);
 }
 
 /// Picoseconds of a day.
 std::int64_t length_of_day(sys_days day, TimeSystem system) {
-  return ps_per_day + (system == TimeSystem::utc && has_leap_second(day) ? ps_per_s : 0);
+  return picoseconds_per_day +
+         (system == TimeSystem::utc && has_leap_second(day) ? picoseconds_per_second : 0);
 }
 
 Epoch utc_of_tai(const Epoch& tai) {
@@ -74,20 +73,20 @@ Epoch utc_of_tai(const Epoch& tai) {
   if (since < 0) {
     day -= days(1);
     require_utc(day);
-    since = tai.picoseconds + ps_per_day - start(day);
+    since = tai.picoseconds + picoseconds_per_day - start(day);
   }
   require_utc(day);
   if (day >= first_day_of_leap_seconds) return {day, since};
   // UTC then ran at another rate than TAI: the offset grows by up to 3e-8 of the time.
   std::int64_t utc = since;
   for (int i = 0; i < 3; ++i) utc = since - (offset_ps(day, utc) - start(day));
-  return {day, std::min(utc, ps_per_day - 1)};
+  return {day, std::min(utc, picoseconds_per_day - 1)};
 }
 
 /// TDB - TT in picoseconds at the Earth's centre.
 std::int64_t tdb_minus_tt_ps(const Epoch& tt) {
   const JulianDate date = julian_date(tt, TimeSystem::tt);
-  return std::llround(eraDtdb(date.day, date.fraction, 0, 0, 0, 0) * ps_per_s);
+  return std::llround(eraDtdb(date.day, date.fraction, 0, 0, 0, 0) * picoseconds_per_second);
 }
 
 }  // namespace
@@ -143,7 +142,7 @@ Instant later(const Instant& instant, const Extended& seconds) {
 
 Extended seconds_between(const Instant& first, const Instant& last) {
   return Extended((last.tt.day - first.tt.day).count()) * 86400 +
-         Extended(last.tt.picoseconds - first.tt.picoseconds) / ps_per_s;
+         Extended(last.tt.picoseconds - first.tt.picoseconds) / picoseconds_per_second;
 }
 
 JulianDate julian_date(const Epoch& epoch, TimeSystem system) {
@@ -177,7 +176,7 @@ Epoch epoch_of_julian_date(const JulianDate& date, TimeSystem system) {
 
 double tai_minus_utc(const Epoch& utc) {
   require_utc(utc.day);
-  return static_cast<double>(offset_ps(utc.day, utc.picoseconds)) / ps_per_s;
+  return static_cast<double>(offset_ps(utc.day, utc.picoseconds)) / picoseconds_per_second;
 }
 
 std::optional<std::string> doubt_of_utc(const Epoch& utc) {

@@ -17,14 +17,12 @@ namespace {
 /// Orbit messages are often dated to the millisecond; where the nominals meet is judged by itself.
 constexpr double largest_gap_s = 1e-3;
 
-constexpr std::int64_t picoseconds_a_second = 1'000'000'000'000;
-
 /// When the flow ends; no value without a date, or beyond the calendar.
 std::optional<Epoch> end_of(const io::StoredJet& jet) {
   if (!jet.ephemeris) return std::nullopt;
   const auto start = parse_epoch(jet.ephemeris->epoch);
   // Within a leap second there is nothing to count from.
-  if (!start || start->picoseconds >= 86400 * picoseconds_a_second) return std::nullopt;
+  if (!start || start->is_within_leap_second()) return std::nullopt;
   return later(*start, Extended(jet.duration) * Extended(jet.units.time_s));
 }
 

@@ -53,13 +53,12 @@ Matrix<double> square(const std::array<std::array<double, 6>, 6>& rows, double u
 
 GivenCovariance of_orbit(const OrbitMetadata& metadata, const OrbitCovariance& covariance,
                          std::span<const OrbitState> states, double mu_km3_s2) {
-  GivenCovariance given = {
-      covariance.epoch,
-      std::string(time_system_names()[static_cast<std::size_t>(metadata.time_system)]),
-      covariance.reference_frame,
-      square(covariance.matrix, 1e6),
-      covariance.line,
-      {}};
+  GivenCovariance given = {covariance.epoch,
+                           std::string(time_system_name(metadata.time_system)),
+                           covariance.reference_frame,
+                           square(covariance.matrix, 1e6),
+                           covariance.line,
+                           {}};
   given.state.names = known_names({metadata.object_name, metadata.object_id});
   given.state.center_name = metadata.center_name;
   given.state.reference_frame = metadata.reference_frame;
@@ -197,10 +196,8 @@ class CovarianceFile {
       MessageFrame from{frame};
       const std::string& epoch = given.state.reference_frame_epoch;
       if (!epoch.empty()) from.epoch = parse_epoch(epoch);
-      const auto& names = time_system_names();
-      const auto system = std::find(names.begin(), names.end(), given.time_system);
       try {
-        return MessageFrameChange(from, {"GCRF"}, static_cast<TimeSystem>(system - names.begin()),
+        return MessageFrameChange(from, {"GCRF"}, time_system_named(given.time_system).value(),
                                   given.epoch, given.epoch, earth->orientation)
             .at(given.epoch);
       } catch (const Error& error) {
@@ -208,16 +205,12 @@ class CovarianceFile {
       }
     };
     if (axes_named(given.reference_frame)) {
-      const auto turn = change_from(given.reference_frame).of_state();
-      const Matrix<double> turned = turn * given.matrix * turn.transpose();
-      given.matrix = (turned + turned.transpose()) / 2;
+      given.matrix = change_from(given.reference_frame).of_covariance(given.matrix);
       given.reference_frame = "GCRF";
     }
     if (given.has_state && axes_named(given.state.reference_frame)) {
-      const AxesChange change = change_from(given.state.reference_frame);
       KnownState& state = given.state;
-      state.velocity_km_s = change.rotation * state.velocity_km_s + change.rate * state.position_km;
-      state.position_km = change.rotation * state.position_km;
+      change_from(state.reference_frame).apply(state.position_km, state.velocity_km_s);
       state.reference_frame = "GCRF";
       state.reference_frame_epoch.clear();
     }

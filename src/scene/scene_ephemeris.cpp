@@ -16,8 +16,6 @@ using std::chrono::year;
 /// Before this day the second of UTC had other lengths.
 constexpr sys_days first_day_of_utc = sys_days(year(1972) / 1 / 1);
 
-constexpr std::int64_t picoseconds_per_day = 86'400'000'000'000'000;
-
 /// A text that an orbit message can hold.
 std::string message_text(const TableReader& ephemeris, std::string_view key) {
   constexpr std::size_t longest = 80;
@@ -85,11 +83,10 @@ Epoch read_epoch(const TableReader& table, std::string_view key) {
 
 void require_leap_second(const TableReader& table, std::string_view key, const Epoch& epoch,
                          TimeSystem system) {
-  if (system == TimeSystem::utc || epoch.picoseconds < picoseconds_per_day) return;
-  table.fail(
-      key, fmt::format("a leap second, which UTC alone has, got {} {}, must be another "
-                       "second, or a date in UTC",
-                       format_epoch(epoch), time_system_names()[static_cast<std::size_t>(system)]));
+  if (system == TimeSystem::utc || !epoch.is_within_leap_second()) return;
+  table.fail(key, fmt::format("a leap second, which UTC alone has, got {} {}, must be another "
+                              "second, or a date in UTC",
+                              format_epoch(epoch), time_system_name(system)));
 }
 
 ValueForm form_of_epoch() {
@@ -149,10 +146,8 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
       of_file.time_system);
   if (ephemeris.has("epoch")) {
-    const auto& systems = time_system_names();
-    const auto found = std::find(systems.begin(), systems.end(), settings.time_system);
     require_leap_second(ephemeris, "epoch", parse_epoch(settings.epoch).value(),
-                        static_cast<TimeSystem>(found - systems.begin()));
+                        time_system_named(settings.time_system).value());
   }
   if (!known) {
     settings.reference_frame = read_frame(ephemeris);

@@ -233,7 +233,7 @@ void warn_of_contradictory_elements(const TableReader& nominal, std::string_view
 EphemerisSettings settings_of(const ChosenState& chosen) {
   EphemerisSettings settings;
   settings.epoch = format_epoch(chosen.state.epoch);
-  settings.time_system = time_system_names()[static_cast<std::size_t>(chosen.metadata.time_system)];
+  settings.time_system = time_system_name(chosen.metadata.time_system);
   settings.reference_frame = chosen.metadata.reference_frame;
   settings.center_name = chosen.metadata.center_name;
   if (chosen.metadata.reference_frame_epoch) {

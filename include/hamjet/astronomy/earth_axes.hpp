@@ -35,7 +35,16 @@ struct AxesChange {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d rate = Eigen::Matrix3d::Zero();
 
-  /// The matrix that takes a state (r, v), and the deviations of a covariance.
+  /// Changes a position and its velocity, of double or Extended.
+  template <class Vector3>
+  void apply(Vector3& position, Vector3& velocity) const {
+    using Real = typename Vector3::Scalar;
+    velocity = (rotation.cast<Real>() * velocity + rate.cast<Real>() * position).eval();
+    position = (rotation.cast<Real>() * position).eval();
+  }
+  /// A covariance of (r, v). Its two halves stay equal.
+  Eigen::Matrix<double, 6, 6> of_covariance(const Eigen::Matrix<double, 6, 6>& covariance) const;
+  /// The matrix that takes a state (r, v).
   Eigen::Matrix<double, 6, 6> of_state() const;
   AxesChange inverse() const;
   /// First this one, then the other one.

@@ -18,6 +18,17 @@ enum class TimeSystem { utc, tai, tt, gps, tdb };
 /// The time systems' names (CCSDS 502.0-B-3, annex B3), in the order of the enumeration.
 const std::vector<std::string_view>& time_system_names();
 
+inline std::string_view time_system_name(TimeSystem system) {
+  return time_system_names()[static_cast<std::size_t>(system)];
+}
+
+/// The time system of a name; no value for any other text.
+std::optional<TimeSystem> time_system_named(std::string_view name);
+
+inline constexpr std::int64_t picoseconds_per_second = 1'000'000'000'000;
+/// Of a day without a leap second.
+inline constexpr std::int64_t picoseconds_per_day = 86'400 * picoseconds_per_second;
+
 /// A moment on the calendar of a time system, to the picosecond (in which a satellite moves by 8
 /// nanometres).
 struct Epoch {
@@ -26,6 +37,7 @@ struct Epoch {
       0;  ///< since the beginning of the day; 86 400 s or more within a leap second of UTC
 
   auto operator<=>(const Epoch&) const = default;
+  bool is_within_leap_second() const { return picoseconds >= picoseconds_per_day; }
 };
 
 /// Reads YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, each with an optional fraction of a second

@@ -44,15 +44,13 @@ std::string model_text(const SystemSettings& system) {
 }  // namespace
 
 TimeSystem time_system_of(const EphemerisSettings& settings) {
-  const auto& names = time_system_names();
-  return static_cast<TimeSystem>(std::find(names.begin(), names.end(), settings.time_system) -
-                                 names.begin());
+  return time_system_named(settings.time_system).value();
 }
 
 Epoch current_epoch() {
   const auto moment = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
   const auto day = std::chrono::floor<std::chrono::days>(moment);
-  return {day, (moment - day).count() * std::int64_t{1'000'000'000'000}};
+  return {day, (moment - day).count() * picoseconds_per_second};
 }
 
 std::vector<std::string> origin_comments(const Scene& scene, const std::string& source) {

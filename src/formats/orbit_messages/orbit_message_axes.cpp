@@ -11,8 +11,6 @@
 namespace hamjet::io {
 namespace {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 [[noreturn]] void refuse(const std::string& problem) {
   throw Error(ErrorKind::input_output, problem);
 }
@@ -101,23 +99,18 @@ AxesChange MessageFrameChange::at(const Epoch& epoch) const {
 }
 
 OrbitState MessageFrameChange::of(const OrbitState& state) const {
-  const AxesChange change = at(state.epoch);
-  const Eigen::Vector3d position(state.position_km.data()), velocity(state.velocity_km_s.data());
   OrbitState result = state;
-  Eigen::Map<Eigen::Vector3d>(result.position_km.data()) = change.rotation * position;
-  Eigen::Map<Eigen::Vector3d>(result.velocity_km_s.data()) =
-      change.rotation * velocity + change.rate * position;
+  Eigen::Map<Eigen::Vector3d> position(result.position_km.data());
+  Eigen::Map<Eigen::Vector3d> velocity(result.velocity_km_s.data());
+  at(state.epoch).apply(position, velocity);
   return result;
 }
 
 OrbitCovariance MessageFrameChange::of(const OrbitCovariance& covariance) const {
-  const Matrix6 change = at(covariance.epoch).of_state();
   using Rows = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-  const Matrix6 given = Eigen::Map<const Rows>(covariance.matrix[0].data());
-  const Matrix6 turned = change * given * change.transpose();
   OrbitCovariance result = covariance;
-  // Rounding must not leave the two halves different.
-  Eigen::Map<Rows>(result.matrix[0].data()) = (turned + turned.transpose()) / 2;
+  Eigen::Map<Rows> matrix(result.matrix[0].data());
+  matrix = at(covariance.epoch).of_covariance(matrix);
   result.reference_frame = to_;
   return result;
 }

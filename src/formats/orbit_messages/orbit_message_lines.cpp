@@ -226,13 +226,12 @@ OrbitMetadata MessageBlock::metadata(AcceptedFrames frames) const {
     fail("REF_FRAME", frame_problem(result.reference_frame, frames));
   }
   std::string name = text("TIME_SYSTEM");
-  const auto& names = time_system_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
+  const auto system = time_system_named(name);
+  if (!system) {
     fail("TIME_SYSTEM", fmt::format("unknown time system, got {}, must be one of: {}",
-                                    in_quotes(name), listed(names)));
+                                    in_quotes(name), listed(time_system_names())));
   }
-  result.time_system = static_cast<TimeSystem>(found - names.begin());
+  result.time_system = *system;
   if (has("REF_FRAME_EPOCH")) result.reference_frame_epoch = epoch("REF_FRAME_EPOCH");
   return result;
 }

@@ -43,7 +43,7 @@ class OemReader {
         lines_.fail(message.segments.back().line, "TIME_SYSTEM",
                     fmt::format("changes, got another one than in the first block, must be {} in "
                                 "all of them",
-                                time_system_names()[static_cast<std::size_t>(first)]));
+                                time_system_name(first)));
       }
     }
     return message;

@@ -40,8 +40,7 @@ void write_metadata(std::back_insert_iterator<fmt::memory_buffer> out,
   if (metadata.reference_frame_epoch) {
     fmt::format_to(out, "REF_FRAME_EPOCH = {}\n", format_epoch(*metadata.reference_frame_epoch));
   }
-  fmt::format_to(out, "TIME_SYSTEM = {}\n",
-                 time_system_names()[static_cast<std::size_t>(metadata.time_system)]);
+  fmt::format_to(out, "TIME_SYSTEM = {}\n", time_system_name(metadata.time_system));
 }
 
 void write_segment(std::back_insert_iterator<fmt::memory_buffer> out,

@@ -54,8 +54,7 @@ void add_metadata(Node parent, const OrbitMetadata& metadata) {
   if (metadata.reference_frame_epoch) {
     add(parent, "REF_FRAME_EPOCH", format_epoch(*metadata.reference_frame_epoch));
   }
-  add(parent, "TIME_SYSTEM",
-      std::string(time_system_names()[static_cast<std::size_t>(metadata.time_system)]));
+  add(parent, "TIME_SYSTEM", std::string(time_system_name(metadata.time_system)));
 }
 
 void add_state(Node parent, const OrbitState& state, const std::vector<std::string>& comments) {

@@ -207,6 +207,15 @@ def _binary(operator: str, a: Any, b: Any) -> Any:
     return Symbol(operator, (_operand(a), _operand(b)))
 
 
+def free_prefix(names: Iterable[str]) -> str:
+    """With which none of the names begins, for names of definitions."""
+    taken = list(names)
+    prefix = "w"
+    while any(name.startswith(prefix) for name in taken):
+        prefix += "_"
+    return prefix
+
+
 class Writer:
     """Writes symbols as expressions; what is used more than once becomes a definition."""
 
@@ -215,10 +224,7 @@ class Writer:
         self._texts: dict[int, tuple[str, int]] = {}
         self._kept: list[Symbol] = []
         self._uses: dict[int, int] = {}
-        self._prefix = "w"
-        taken = list(names)
-        while any(name.startswith(self._prefix) for name in taken):
-            self._prefix += "_"
+        self._prefix = free_prefix(names)
 
     def write(self, symbols: list[Symbol]) -> list[str]:
         order: list[Symbol] = []

@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _hamjet, shown
 from .errors import UsageError
-from .symbols import Symbol, Writer, number_text
+from .symbols import Symbol, Writer, free_prefix, number_text
 
 #: The name of a system, for messages.
 _NAME = "system"
@@ -263,11 +263,8 @@ def _of_sympy(expressions: list[Any], names: list[str]) -> tuple[list[str], dict
         def _print_ImaginaryUnit(self, _: Any) -> str:
             raise UsageError("expression: a complex number, got I, must be real")
 
-    prefix = "w"
-    while any(name.startswith(prefix) for name in names):
-        prefix += "_"
     expressions = [sympy.sympify(e) for e in expressions]
-    common, rest = sympy.cse(expressions, symbols=sympy.numbered_symbols(prefix, start=1))
+    common, rest = sympy.cse(expressions, symbols=sympy.numbered_symbols(free_prefix(names), start=1))
     printer = Printer()
     return ([printer.doprint(e) for e in rest],
             {str(name): printer.doprint(e) for name, e in common})

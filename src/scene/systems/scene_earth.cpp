@@ -59,11 +59,6 @@ constexpr std::chrono::sys_days first_known_day = std::chrono::year(1960) / 1 / 
 constexpr std::chrono::sys_days last_known_day = std::chrono::year(2099) / 12 / 31;
 constexpr std::string_view right_dates = "must be from 1960-01-01 to 2099-12-31";
 
-TimeSystem system_named(std::string_view name) {
-  const auto& names = time_system_names();
-  return static_cast<TimeSystem>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 Date read_date(const TableReader& root) {
   const TableReader nominal = root.table("nominal");
   const auto given = given_epochs(nominal);
@@ -77,8 +72,8 @@ Date read_date(const TableReader& root) {
       nominal.fail(given[0], fmt::format("the message has its own epoch, got {}, must be left out",
                                          nominal.found(given[0])));
     }
-    return {parse_epoch(of_file->epoch).value(), system_named(of_file->time_system), nominal,
-            nominal.exactly_one_of({"oem_file", "opm_file"})};
+    return {parse_epoch(of_file->epoch).value(), time_system_named(of_file->time_system).value(),
+            nominal, nominal.exactly_one_of({"oem_file", "opm_file"})};
   }
   if (!given.empty()) {
     const auto key = std::find_if(epoch_key_names.begin(), epoch_key_names.end(),
@@ -101,7 +96,7 @@ Date read_date(const TableReader& root) {
 
 /// The moment of a date, which must be one at which the Earth's axes are known.
 Instant instant_of_date(const Date& date) {
-  const std::string_view name = time_system_names()[static_cast<std::size_t>(date.system)];
+  const std::string_view name = time_system_name(date.system);
   const std::string got = fmt::format("got {} {}", format_epoch(date.epoch), name);
   require_leap_second(date.table, date.key, date.epoch, date.system);
   const auto day = date.epoch.day;
@@ -121,7 +116,7 @@ Instant instant_of_date(const Date& date) {
 Instant axes_moment(const EphemerisSettings& message) {
   const bool is_fixed = !message.reference_frame_epoch.empty();
   return instant_of(parse_epoch(is_fixed ? message.reference_frame_epoch : message.epoch).value(),
-                    system_named(message.time_system));
+                    time_system_named(message.time_system).value());
 }
 
 /// Refuses a table of the Earth's orientation that ends before the scene's flights, or begins
@@ -264,16 +259,10 @@ CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
       table.fail(key, error.what());
     }
   }();
-  CartesianState result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result.position_km[i] = result.velocity_km_s[i] = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      result.position_km[i] += change.rotation(row, column) * state.position_km[j];
-      result.velocity_km_s[i] += change.rotation(row, column) * state.velocity_km_s[j] +
-                                 change.rate(row, column) * state.position_km[j];
-    }
-  }
+  CartesianState result = state;
+  Eigen::Map<Vector<Extended>> position(result.position_km.data(), 3);
+  Eigen::Map<Vector<Extended>> velocity(result.velocity_km_s.data(), 3);
+  change.apply(position, velocity);
   return result;
 }
 
@@ -281,7 +270,7 @@ bool is_at_start(const EarthSettings& earth, const Epoch& epoch, std::string_vie
   // Times of TDB are rounded where they become those of TT.
   constexpr double rounding_s = 1e-9;
   const Instant start{parse_epoch(earth.epoch_tt).value()};
-  const TimeSystem system = system_named(time_system);
+  const TimeSystem system = time_system_named(time_system).value();
   if (system == TimeSystem::utc && epoch.day < first_known_day) return false;
   const Instant moment = instant_of(epoch, system);
   return abs(seconds_between(start, moment)) < rounding_s;
@@ -293,7 +282,7 @@ EphemerisSettings ephemeris_of_earth(const TableReader& root) {
       settings_of_orbit_file(root.table("nominal")).value_or(EphemerisSettings());
   settings.reference_frame_epoch.clear();
   settings.epoch = format_epoch(date.epoch);
-  settings.time_system = time_system_names()[static_cast<std::size_t>(date.system)];
+  settings.time_system = time_system_name(date.system);
   settings.reference_frame = "GCRF";
   settings.center_name = "EARTH";
   return settings;

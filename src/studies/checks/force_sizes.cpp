@@ -2,12 +2,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
+#include "../flights/paced_times.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -17,11 +16,6 @@ namespace hamjet {
 namespace {
 
 using Eigen::Vector3d;
-
-/// Orbits are compared at so many times, and at least so many a revolution.
-constexpr int least_times = 48;
-constexpr int times_a_revolution = 8;
-constexpr int most_times = 2000;
 
 Vector3d place_of(const std::vector<double>& z) { return {z[0], z[1], z[2]}; }
 
@@ -38,16 +32,10 @@ Orbit fly(const SharedSystem& system, std::vector<double> state, const ClockTime
   return orbit;
 }
 
+/// Equal times over the scene's duration.
 std::vector<double> looks(const Scene& scene) {
-  const std::vector<double>& z = scene.nominal;
-  const Vector3d velocity(z[3], z[4], z[5]);
-  const double inverse_axis = 2 / place_of(z).norm() - velocity.squaredNorm();
-  const double turns = inverse_axis > 0 ? std::abs(scene.duration) * std::pow(inverse_axis, 1.5) /
-                                              (2 * std::numbers::pi)
-                                        : 0;
-  const int count = static_cast<int>(std::clamp(std::ceil(turns * times_a_revolution),
-                                                static_cast<double>(least_times),
-                                                static_cast<double>(most_times)));
+  const int count =
+      interval_count(scene, scene.duration, {.each_revolution = 8, .fewest = 48, .most = 2000});
   std::vector<double> times;
   for (int k = 0; k <= count; ++k) times.push_back(scene.duration * k / count);
   return times;
