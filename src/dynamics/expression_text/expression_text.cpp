@@ -12,7 +12,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
 #include "expression_functions.hpp"
-#include "expression_grammar.hpp"
+#include "expression_part.hpp"
 
 namespace hamjet {
 namespace {
@@ -21,58 +21,7 @@ using io::in_quotes;
 
 constexpr std::string_view pi_name = "pi";
 
-/// Where a place of a text is, in words: line (of texts of several), column, and what stands
-/// before.
-std::string place_in_words(std::string_view text, std::size_t place) {
-  constexpr std::size_t longest = 24;
-  const std::string_view before = text.substr(0, place);
-  const std::size_t line_begin = before.rfind('\n') == before.npos ? 0 : before.rfind('\n') + 1;
-  std::string words;
-  if (text.find('\n') != text.npos) {
-    words = fmt::format("line {}, ", 1 + std::count(before.begin(), before.end(), '\n'));
-  }
-  words += fmt::format("column {}", place - line_begin + 1);
-  std::string_view shown = before.substr(line_begin);
-  if (shown.size() > longest) {
-    shown.remove_prefix(shown.size() - longest);
-    // The cut may not go through a character of UTF-8.
-    while (!shown.empty() && (static_cast<unsigned char>(shown[0]) & 0xC0) == 0x80) {
-      shown.remove_prefix(1);
-    }
-  }
-  return shown.empty() ? words : fmt::format("{}, behind {}", words, in_quotes(shown));
-}
-
-/// A text of a function and what it stands for.
-struct Part {
-  enum class Kind { variable, parameter, definition, output };
-  Kind kind = Kind::variable;
-  std::string path;            ///< for messages
-  std::string_view text = {};  ///< empty for a variable
-  std::vector<ExpressionToken> tokens = {};
-  std::optional<Expression> value = {};
-
-  std::string_view text_of(const ExpressionToken& token) const {
-    return text.substr(token.begin, token.length);
-  }
-  [[noreturn]] void fail(const ExpressionToken& token, std::string_view what,
-                         std::string_view right) const {
-    throw ExpressionTextError(path,
-                              fmt::format("{}, got {} at {}, {}", what, in_quotes(text_of(token)),
-                                          place_in_words(text, token.begin), right));
-  }
-};
-
-std::string path_of(Part::Kind kind, const std::string& name) {
-  switch (kind) {
-    case Part::Kind::parameter:
-      return "parameters." + io::printable(name);
-    case Part::Kind::definition:
-      return "definitions." + io::printable(name);
-    default:
-      return io::printable(name);
-  }
-}
+using Part = ExpressionPart;
 
 /// All texts of a function, parsed, in an order in which each needs only earlier ones.
 class ParsedFunction {
@@ -138,16 +87,15 @@ class ParsedFunction {
  private:
   void add(Part::Kind kind, const NamedText& text) {
     Part& part = parts_.emplace_back();
-    part = {.kind = kind, .path = path_of(kind, text.name), .text = text.text};
+    part = {.kind = kind, .path = part_path(kind, text.name), .text = text.text};
     if (kind != Part::Kind::output) name_part(text.name, part.path);
     try {
       part.tokens = parse_expression(part.text);
     } catch (const SyntaxProblem& p) {
       const std::string got =
           p.length == 0 ? "the end of the text" : in_quotes(part.text.substr(p.place, p.length));
-      throw ExpressionTextError(part.path,
-                                fmt::format("{}, got {} at {}, must be {}", p.what, got,
-                                            place_in_words(part.text, p.place), p.right));
+      throw ExpressionTextError(part.path, fmt::format("{}, got {} at {}, must be {}", p.what, got,
+                                                       part.words_of_place(p.place), p.right));
     }
     for (const ExpressionToken& token : part.tokens) {
       uses_time_ =
