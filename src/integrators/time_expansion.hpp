@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -231,23 +230,8 @@ class TimeExpansion {
 
   /// The coefficient of t^k of a function of the time, which is asked once for all of them.
   T time_value(const Operation& o, int k) {
-    using Lanes = TimeLanes<T, Real>;
-    using Number = typename Lanes::Number;
-    constexpr std::size_t lanes = Lanes::count();
     std::vector<T>& values = time_values_[o.time_function.get()];
-    if (values.empty()) {
-      std::array<Number, lanes> times;
-      Lanes::put(*value(o.u), times.data());
-      const std::size_t size = o.time_function->components() * stride_;
-      std::vector<Number> at_lane(size);
-      std::vector<Number> all(size * lanes, std::numeric_limits<Number>::quiet_NaN());
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (!(times[lane] == times[lane])) continue;
-        o.time_function->expand(times[lane], order_, at_lane.data());
-        for (std::size_t j = 0; j < size; ++j) all[j * lanes + lane] = at_lane[j];
-      }
-      for (std::size_t j = 0; j < size; ++j) values.push_back(Lanes::take(&all[j * lanes]));
-    }
+    if (values.empty()) values = expand_in_lanes<T, Real>(*o.time_function, *value(o.u), order_);
     T result = values[o.component * stride_ + static_cast<std::size_t>(k)];
     for (int j = 0; j < k; ++j) result *= unit_;
     return result;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <type_traits>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/detail/dynamics/operation_list.hpp"
+#include "hamjet/detail/dynamics/time_function.hpp"
 
 namespace hamjet {
 
@@ -42,10 +44,27 @@ struct ObjectLanes {
   }
 };
 
-/// The same for functions of the time, which know no double-double numbers.
+/// The Taylor coefficients of a function of the time, as TimeFunction::expand, each lane about its
+/// own time; those of a lane without a time are NaN. Such functions know no double-double numbers.
 template <class T, class Real>
-using TimeLanes =
-    ObjectLanes<T, Real, std::conditional_t<std::is_same_v<Real, double>, double, Extended>>;
+std::vector<T> expand_in_lanes(const TimeFunction& function, const T& time, int degree) {
+  using Number = std::conditional_t<std::is_same_v<Real, double>, double, Extended>;
+  using Lanes = ObjectLanes<T, Real, Number>;
+  constexpr std::size_t lanes = Lanes::count();
+  std::array<Number, lanes> times;
+  Lanes::put(time, times.data());
+  const std::size_t size = function.components() * (static_cast<std::size_t>(degree) + 1);
+  std::vector<Number> at_lane(size);
+  std::vector<Number> all(size * lanes, std::numeric_limits<Number>::quiet_NaN());
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (!(times[lane] == times[lane])) continue;
+    function.expand(times[lane], degree, at_lane.data());
+    for (std::size_t j = 0; j < size; ++j) all[j * lanes + lane] = at_lane[j];
+  }
+  std::vector<T> result;
+  for (std::size_t j = 0; j < size; ++j) result.push_back(Lanes::take(&all[j * lanes]));
+  return result;
+}
 
 /// The fields of a list that expand_fields made: their values, the coefficients of their
 /// coordinates, and the cofactors of these, which are the series

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -194,24 +193,8 @@ class SliceEvaluator {
 
   /// A component of a function of the time; a function is asked once for all its components.
   [[gnu::noinline]] T time_value(const Operation& o) {
-    using Lanes = TimeLanes<T, Real>;
-    using Number = typename Lanes::Number;
-    constexpr std::size_t lanes = Lanes::count();
     std::vector<T>& values = time_values_[{o.time_function.get(), o.u}];
-    if (values.empty()) {
-      std::array<Number, lanes> times;
-      Lanes::put(*value(o.u), times.data());
-      const std::size_t components = o.time_function->components();
-      std::vector<Number> at_lane(components);
-      std::vector<Number> all(components * lanes, std::numeric_limits<Number>::quiet_NaN());
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        // Without a time there is nothing to ask for.
-        if (!(times[lane] == times[lane])) continue;
-        o.time_function->expand(times[lane], 0, at_lane.data());
-        for (std::size_t c = 0; c < components; ++c) all[c * lanes + lane] = at_lane[c];
-      }
-      for (std::size_t c = 0; c < components; ++c) values.push_back(Lanes::take(&all[c * lanes]));
-    }
+    if (values.empty()) values = expand_in_lanes<T, Real>(*o.time_function, *value(o.u), 0);
     return values[o.component];
   }
 
