@@ -12,9 +12,9 @@
 namespace hamjet::io {
 namespace {
 
-/// A circle with exact conversions: the units are 4 km, 8 s and 500 m/s, and a revolution takes
-/// 2 pi canonical.
-constexpr const char* circle = R"(schema = 1
+/// A circle with exact conversions: the units are 4 km, 8 s and 500 m/s, and a revolution
+/// takes 2 pi canonical.
+constexpr const char* circle_scene = R"(schema = 1
 title = "circle"
 [system]
 model = "kepler"
@@ -57,7 +57,7 @@ position_m = [4, 0, 0]
 )";
 
 Scene scene_of(const std::string& tables) {
-  return parse_scene(std::string(circle) + tables, "file.toml");
+  return parse_scene(std::string(circle_scene) + tables, "file.toml");
 }
 
 struct TableChange {
@@ -69,7 +69,8 @@ struct TableChange {
 void expect_table_errors(const std::string& tables, const std::vector<TableChange>& changes) {
   ASSERT_NO_THROW(scene_of(tables));
   for (const TableChange& change : changes) {
-    expect_scene_error(std::string(circle) + changed(tables, change.from, change.to), change.words);
+    expect_scene_error(std::string(circle_scene) + changed(tables, change.from, change.to),
+                       change.words);
   }
 }
 
@@ -138,7 +139,7 @@ TEST(SceneTransfer, FramesOfTheEnds) {
                                     const std::vector<std::string>& words) {
     std::vector<std::string> all = words;
     all.emplace_back("different frames");
-    expect_scene_error(circle + tables, all);
+    expect_scene_error(circle_scene + tables, all);
   };
   expect_different(with(rtn, inertial), {"file.toml:24:9: transfer.end.frame: ", "got inertial",
                                          "file.toml:20:9: transfer.start.frame has RTN with "
@@ -151,8 +152,9 @@ TEST(SceneTransfer, FramesOfTheEnds) {
                    {"transfer.start.frame", "transfer.frame has inertial"});
   expect_different(with("", inertial), {"transfer.end.frame: ", "got inertial",
                                         "file.toml:18:1: transfer.start has RTN with rotating"});
-  expect_scene_error(circle + with(inertial, "frame = \"inertial\"\nderivatives = \"rotating\""),
-                     {"transfer.end.derivatives: the frame inertial has one kind"});
+  expect_scene_error(
+      circle_scene + with(inertial, "frame = \"inertial\"\nderivatives = \"rotating\""),
+      {"transfer.end.derivatives: the frame inertial has one kind"});
 }
 
 // As [deputy] and [validity] have it.
@@ -173,13 +175,13 @@ TEST(SceneTransfer, TheFrameIsThatOfTheDeputyElseRtn) {
 TEST(SceneTransfer, AFormIsNoFrameAndItsKeysAreSaid) {
   const std::string deputy = "[deputy]\nposition_m = [1, 0, 0]\nframe = ";
   expect_scene_error(
-      circle + deputy + "\"relative-elements\"\n",
+      circle_scene + deputy + "\"relative-elements\"\n",
       {"file.toml:18:9: deputy.frame: a form and no frame, got \"relative-elements\"",
        "must be \"RTN\", \"inertial\" or left out",
        "the keys a_da_m, a_dlambda_m, a_dex_m, a_dey_m, a_dix_m, a_diy_m"});
-  expect_scene_error(circle + deputy + "\"Relative_Elements\"\n", {"a form and no frame"});
-  expect_scene_error(circle + deputy + "\"curvilinear\"\n", {"a form and no frame", "arc_m"});
-  expect_scene_error(circle + changed(transfer, "\"RTN\"", "\"element-differences\""),
+  expect_scene_error(circle_scene + deputy + "\"Relative_Elements\"\n", {"a form and no frame"});
+  expect_scene_error(circle_scene + deputy + "\"curvilinear\"\n", {"a form and no frame", "arc_m"});
+  expect_scene_error(circle_scene + changed(transfer, "\"RTN\"", "\"element-differences\""),
                      {"transfer.frame: a form and no frame", "where it starts, the keys da_m"});
 }
 
@@ -187,7 +189,7 @@ TEST(SceneTransfer, LocalVerticalIsRefusedWithItsTwoMeanings) {
   for (const char* name : {"LVLH", "lvlh", "Lvlh"}) {
     const std::string frame = "frame = \"" + std::string(name) + "\"";
     expect_scene_error(
-        circle + changed(transfer, "frame = \"RTN\"", frame),
+        circle_scene + changed(transfer, "frame = \"RTN\"", frame),
         {":17:9: transfer.frame: ambiguous, got \"" + std::string(name) + "\"", "x radial outward",
          "z toward the Earth's centre", "y opposite to the orbit normal", "must be \"RTN\""});
   }
@@ -246,8 +248,9 @@ TEST(SceneTransfer, Errors) {
         {"transfer.start: missing"}}});
   std::string many = "times_s = [";
   for (int i = 1; i <= 10001; ++i) many += std::to_string(i) + ",";
-  expect_scene_error(circle + changed(transfer, times, many + "]"), {"too many, got 10001 times"});
-  const std::string still = changed(circle, "duration_s = 64", "duration_s = 0");
+  expect_scene_error(circle_scene + changed(transfer, times, many + "]"),
+                     {"too many, got 10001 times"});
+  const std::string still = changed(circle_scene, "duration_s = 64", "duration_s = 0");
   expect_scene_error(still + changed(transfer, times, "count = 3"), {"count: no time to divide"});
 }
 
@@ -277,7 +280,8 @@ TEST(SceneTransfer, Waypoints) {
 
 TEST(SceneTransfer, HowFarADeputyMayBeDoesNotDependOnTheUnitOfLength) {
   for (const char* length_km : {"1e-6", "0.003", "2", "1e8"}) {
-    const std::string orbit = std::string(circle) + "[units]\nlength_km = " + length_km + "\n";
+    const std::string orbit =
+        std::string(circle_scene) + "[units]\nlength_km = " + length_km + "\n";
     const std::string far = changed(transfer, "[1, 2, 3]", "[3998, 0, 0]");
     EXPECT_NO_THROW(parse_scene(orbit + far, "file.toml")) << length_km;
     expect_scene_error(orbit + changed(transfer, "[1, 2, 3]", "[4002, 0, 0]"),
@@ -288,7 +292,7 @@ TEST(SceneTransfer, HowFarADeputyMayBeDoesNotDependOnTheUnitOfLength) {
 }
 
 TEST(SceneTransfer, NeedsAPeriodForOrbitsOnly) {
-  const std::string open = changed(circle, "[0, 0.5, 0]", "[0, 0.8, 0]");
+  const std::string open = changed(circle_scene, "[0, 0.5, 0]", "[0, 0.8, 0]");
   EXPECT_NEAR(parse_scene(open + transfer, "x").transfer->singular_margin,
               0.01 * 2 * std::numbers::pi, 1e-15);
   const char* times = "times_s = [16, 32]";
@@ -302,10 +306,10 @@ TEST(SceneTransfer, ScenesThatHaveNoRelativeMotion) {
   expect_scene_error(oscillator + transfer,
                      {"transfer: not available for this model, got harmonic-oscillator"});
   expect_scene_error(
-      changed(circle, "order = 3", "order = 3\nvariables = [\"x\", \"px\"]") + transfer,
+      changed(circle_scene, "order = 3", "order = 3\nvariables = [\"x\", \"px\"]") + transfer,
       {"transfer: not defined for these jet.variables, got x, px, must be all of"});
   expect_scene_error(
-      changed(circle, "title", "precision = \"extended\"\ntitle") + "[validity]\ncount = 2\n",
+      changed(circle_scene, "title", "precision = \"extended\"\ntitle") + "[validity]\ncount = 2\n",
       {"validity: not available in extended precision", "double precision"});
 }
 
@@ -386,10 +390,11 @@ TEST(SceneAssignment, Errors) {
       "[transfer]\nframe = \"RTN\"\ncount = 1\n[[assignment.deputy]]\n"
       "position_m = [0, 0, 0]\n";
   for (int i = 0; i < 201; ++i) slots += "[[assignment.slot]]\nposition_m = [0, 0, 0]\n";
-  expect_scene_error(circle + slots, {"assignment.slot: too many, got 201", "at most 200"});
-  expect_scene_error(circle + std::string("[transfer]\nframe = \"RTN\"\ncount = 1\n[assignment]\n"
-                                          "[[assignment.slot]]\nposition_m = [0, 0, 0]\n"),
-                     {"assignment.deputy: missing"});
+  expect_scene_error(circle_scene + slots, {"assignment.slot: too many, got 201", "at most 200"});
+  expect_scene_error(
+      circle_scene + std::string("[transfer]\nframe = \"RTN\"\ncount = 1\n[assignment]\n"
+                                 "[[assignment.slot]]\nposition_m = [0, 0, 0]\n"),
+      {"assignment.deputy: missing"});
 }
 
 }  // namespace
