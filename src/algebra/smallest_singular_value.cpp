@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hamjet/error.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -17,7 +19,7 @@ double by_decomposition(const Eigen::Matrix3d& matrix) {
 }
 
 /// The least root of x^3 - a x^2 + b x - c, whose roots are real and not negative; negative where
-/// it is nearly a double root, which rounding would move far.
+/// it is nearly a double root, which rounding would move far, or is not found.
 double least_root(double a, double b, double c) {
   constexpr int most_iterations = 20;
   constexpr double least_slope = 0.01;  // of the polynomial, as a fraction of b
@@ -30,7 +32,7 @@ double least_root(double a, double b, double c) {
     x += change;
     if (!(std::abs(change) > rounding * x)) return x;
   }
-  return x;
+  return -1;
 }
 
 }  // namespace
@@ -48,6 +50,9 @@ double signed_smallest_singular_value(const Eigen::Matrix3d& matrix) {
   if (third.squaredNorm() > first.squaredNorm()) exchange(first, third);
   // All that follows is relative to the largest column.
   const double unit = first.norm();
+  if (!matrix.allFinite()) {
+    throw Error(ErrorKind::numerical, "singular values: an entry of the matrix is no number");
+  }
   if (!(unit > 0)) return 0;
   first /= unit;
   second /= unit;

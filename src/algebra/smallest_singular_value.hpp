@@ -12,7 +12,8 @@ namespace hamjet {
 ///   x^3 - |R|^2 x^2 + |cofactors of R|^2 x - (r_11 r_22 r_33)^2 = 0 ,
 ///
 /// which Newton's method approaches from below without overshooting. Where the two smallest values
-/// are nearly equal, a singular value decomposition takes its place.
+/// are nearly equal, a singular value decomposition takes its place. Throws Error(numerical) if an
+/// entry is not finite.
 double signed_smallest_singular_value(const Eigen::Matrix3d& matrix);
 
 }  // namespace hamjet

@@ -66,9 +66,11 @@ std::vector<EarthOrientation::Day> EarthOrientation::between(const Instant& firs
         std::min<std::ptrdiff_t>(end - run.begin() + 1 + more, std::ssize(run));
     return {run.begin() + from, run.begin() + to};
   }
+  std::string span = date_text(first);
+  if (date_text(last) != span) span += " to " + date_text(last);
   throw Error(ErrorKind::input_output,
-              fmt::format("{}: no Earth orientation for {} to {}, must be within its dates: {}",
-                          name_, date_text(first), date_text(last), dates()));
+              fmt::format("{}: no Earth orientation for {}, must be within its dates: {}", name_,
+                          span, dates()));
 }
 
 std::string EarthOrientation::dates() const {
@@ -78,7 +80,7 @@ std::string EarthOrientation::dates() const {
     text += fmt::format("{}{} to {}", i > 0 ? ", " : "", date_text(runs_[i].front().start),
                         date_text(runs_[i].back().start));
   }
-  if (runs_.size() > most) text += fmt::format(" and {} more spans", runs_.size() - most);
+  if (runs_.size() > most) text += fmt::format(" and {} more", runs_.size() - most);
   return text;
 }
 

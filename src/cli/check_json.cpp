@@ -10,7 +10,7 @@
 #include "../report/propagation/force_table.hpp"
 #include "../report/propagation/orbit_summary.hpp"
 #include "../report/study_description.hpp"
-#include "../scene/system_json.hpp"
+#include "../scene/systems/system_json.hpp"
 #include "../store/json_text.hpp"
 #include "../store/json_values.hpp"
 #include "../store/text_file.hpp"

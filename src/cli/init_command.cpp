@@ -88,8 +88,10 @@ struct MessageStart {
 MessageStart read_message(const fs::path& file) {
   const std::string name = io::printable_path(file);
   const std::string text = io::require_regular_file(file, io::largest_orbit_message_bytes);
+  // The scene is about the real Earth, whose own axes are known.
+  constexpr auto frames = io::AcceptedFrames::terrestrial_too;
   if (text.find("CCSDS_OEM_VERS") != std::string::npos) {
-    const io::OrbitEphemerisMessage message = io::read_oem(name, text);
+    const io::OrbitEphemerisMessage message = io::read_oem(name, text, frames);
     const io::OrbitMetadata& first = message.segments.front().metadata;
     const bool is_one_of_several = std::any_of(
         message.segments.begin(), message.segments.end(), [&](const io::EphemerisSegment& other) {
@@ -99,7 +101,7 @@ MessageStart read_message(const fs::path& file) {
     return {first, std::nullopt, "oem_file", is_one_of_several};
   }
   if (text.find("CCSDS_OPM_VERS") != std::string::npos) {
-    const io::OrbitParameterMessage message = io::read_opm(name, text);
+    const io::OrbitParameterMessage message = io::read_opm(name, text, frames);
     return {message.metadata, message.gm_km3_s2, "opm_file", false};
   }
   const io::KnownText* const other = io::known_text(text);

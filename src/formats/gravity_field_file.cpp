@@ -66,6 +66,31 @@ class Reader {
     find_epoch();
   }
 
+  void read_header() {
+    while (true) {
+      if (!next_line()) {
+        line_ = std::max(line_, 1);
+        fail("the header has no end_of_head: no gravity field of ICGEM, or cut off");
+      }
+      if (words_.empty()) continue;
+      if (words_[0].starts_with("end_of_head")) break;
+      // The text before begin_of_head is prose, in which a line may begin with a keyword.
+      if (words_[0].starts_with("begin_of_head")) header_.clear();
+      static constexpr std::array keywords = {
+          "product_type", "modelname",  "product_name", "earth_gravity_constant",
+          "norm",         "max_degree", "tide_system",  "gravity_constant",
+          "radius",       "format"};
+      if (std::find(keywords.begin(), keywords.end(), words_[0]) == keywords.end()) continue;
+      if (words_.size() < 2) fail(fmt::format("{}: has no value", words_[0]));
+      const auto [first, is_new] =
+          header_.emplace(words_[0], HeaderLine{std::string(words_[1]), line_});
+      if (!is_new) {
+        fail(fmt::format("{}: is there twice, first in line {}", words_[0], first->second.line));
+      }
+    }
+    interpret_header();
+  }
+
   const GravityModel& model() const { return model_; }
 
   /// J_n = -C_n0, not normalised.
@@ -131,31 +156,6 @@ class Reader {
     ++line_;
     words_ = words_of(take_line(text_));
     return true;
-  }
-
-  void read_header() {
-    while (true) {
-      if (!next_line()) {
-        line_ = std::max(line_, 1);
-        fail("the header has no end_of_head: no gravity field of ICGEM, or cut off");
-      }
-      if (words_.empty()) continue;
-      if (words_[0].starts_with("end_of_head")) break;
-      // The text before begin_of_head is prose, in which a line may begin with a keyword.
-      if (words_[0].starts_with("begin_of_head")) header_.clear();
-      static constexpr std::array keywords = {
-          "product_type", "modelname",  "product_name", "earth_gravity_constant",
-          "norm",         "max_degree", "tide_system",  "gravity_constant",
-          "radius",       "format"};
-      if (std::find(keywords.begin(), keywords.end(), words_[0]) == keywords.end()) continue;
-      if (words_.size() < 2) fail(fmt::format("{}: has no value", words_[0]));
-      const auto [first, is_new] =
-          header_.emplace(words_[0], HeaderLine{std::string(words_[1]), line_});
-      if (!is_new) {
-        fail(fmt::format("{}: is there twice, first in line {}", words_[0], first->second.line));
-      }
-    }
-    interpret_header();
   }
 
   void interpret_header() {
@@ -317,6 +317,12 @@ std::string content_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+GravityModel parse_gravity_model(const std::string& name, std::string_view text) {
+  Reader reader(name, text, {});
+  reader.read_header();
+  return reader.model();
+}
 
 GravityField parse_gravity_field(const std::string& name, std::string_view text,
                                  const ZonalChoice& choice) {

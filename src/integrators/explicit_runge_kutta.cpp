@@ -128,7 +128,7 @@ class FehlbergIntegration {
       const Real remaining = problem_.duration - time_;
       Real h = fit_to_span(proposed, remaining);
       while (true) {
-        if (time_ + h == time_) fail_step_size(h);
+        if (is_lost_in_rounding(h)) fail_step_size(h);
         if (attempt(stepper, h, proposed)) break;
         ++statistics_.rejected_steps;
         h = proposed;
@@ -138,6 +138,14 @@ class FehlbergIntegration {
       accept();
       limit_step_count(fehlberg_name, statistics_.steps, static_cast<double>(time_), span());
     }
+  }
+
+  /// Whether the rounding of the time is more than 1e-4 of a step, so that what depends on the time
+  /// would not be that of the step. Beyond a collision steps can stay so short for millions.
+  bool is_lost_in_rounding(const Real& h) const {
+    using std::abs;
+    if (h == problem_.duration - time_) return time_ + h == time_;
+    return !(abs(h) > 1e4 * std::numeric_limits<Real>::epsilon() * abs(time_));
   }
 
   /// Takes one step of size h into `trial_`. Returns whether the step is accepted, and sets

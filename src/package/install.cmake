@@ -23,7 +23,7 @@ if(HAMJET_COMMAND)
   # With the files that scenes name, which lie in the same places relative to them.
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/scenes ${PROJECT_SOURCE_DIR}/data/gravity
     DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet
-    FILES_MATCHING PATTERN *.toml PATTERN *.opm PATTERN *.oem PATTERN *.gfc)
+    FILES_MATCHING PATTERN *.toml PATTERN *.opm PATTERN *.oem PATTERN *.gfc PATTERN *.txt)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/examples/two-satellites
     DESTINATION ${CMAKE_INSTALL_DATADIR}/hamjet/examples FILES_MATCHING PATTERN *.toml)
 endif()

@@ -9,8 +9,12 @@
 
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "hamjet/formats/orbit_message_axes.hpp"
+#include "scene_nominal_file.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -82,21 +86,23 @@ GivenCovariance of_conjunction(const ConjunctionDataMessage& message, std::size_
 
 /// All covariances of a file, or only those of the object that the table names.
 CovariancesOfFile covariances_of(const TableReader& table, const std::string& name,
-                                 const std::string& text, double mu_km3_s2) {
+                                 const std::string& text, const SystemSettings& system) {
+  const double mu_km3_s2 = system.mu_km3_s2;
+  const AcceptedFrames frames = frames_of(system);
   CovariancesOfFile file;
   if (text.find("CCSDS_CDM_VERS") != text.npos) {
     ConjunctionDataMessage message = read_cdm(name, text);
     for (std::size_t k = 0; k < 2; ++k) file.found.push_back(of_conjunction(message, k));
     file.doubts = std::move(message.doubts);
   } else if (text.find("CCSDS_OPM_VERS") != text.npos || text.find("<opm") != text.npos) {
-    OrbitParameterMessage message = read_opm(name, text);
+    OrbitParameterMessage message = read_opm(name, text, frames);
     if (message.covariance) {
       file.found.push_back(
           of_orbit(message.metadata, *message.covariance, {&message.state, 1}, mu_km3_s2));
     }
     file.doubts = std::move(message.doubts);
   } else {
-    for (const EphemerisSegment& segment : read_oem(name, text).segments) {
+    for (const EphemerisSegment& segment : read_oem(name, text, frames).segments) {
       for (const OrbitCovariance& covariance : segment.covariances) {
         file.found.push_back(of_orbit(segment.metadata, covariance, segment.states, mu_km3_s2));
       }
@@ -126,7 +132,7 @@ class CovarianceFile {
         name_(printable(table.path_beside_scene(file_key).string(), std::string::npos)) {}
 
   StateUncertainty read() const {
-    const GivenCovariance given = chosen();
+    const GivenCovariance given = in_axes_of_flight(chosen());
     require_same_spacecraft(given);
     StateUncertainty state;
     state.frame = frame_of(given);
@@ -142,7 +148,7 @@ class CovarianceFile {
   /// The covariance at the chief's moment, which must be the only one that can be meant.
   GivenCovariance chosen() const {
     const std::string text = table_.content_beside_scene(file_key, largest_orbit_message_bytes);
-    CovariancesOfFile file = covariances_of(table_, name_, text, nominal_.centre.system.mu_km3_s2);
+    CovariancesOfFile file = covariances_of(table_, name_, text, nominal_.centre.system);
     std::vector<GivenCovariance>& all = file.found;
     if (all.empty()) {
       table_.fail(
@@ -165,6 +171,9 @@ class CovarianceFile {
     const GivenCovariance first = all[0];
     const std::size_t others = all.size() - 1;
     std::erase_if(all, [&](const GivenCovariance& given) {
+      if (const auto& earth = nominal_.centre.system.earth) {
+        return !is_at_start(*earth, given.epoch, given.time_system);
+      }
       return parse_epoch(chief.epoch) != given.epoch || given.time_system != chief.time_system;
     });
     if (all.empty()) {
@@ -177,6 +186,42 @@ class CovarianceFile {
               chief.epoch, chief.time_system));
     }
     return only_one(all);
+  }
+
+  /// State and covariance along the axes in which a scene about the real Earth is flown, where they
+  /// are told in other known ones. Axes such as RTN turn with the orbit and stay.
+  GivenCovariance in_axes_of_flight(GivenCovariance given) const {
+    const auto& earth = nominal_.centre.system.earth;
+    if (!earth) return given;
+    const auto change_from = [&](const std::string& frame) {
+      MessageFrame from{frame};
+      const std::string& epoch = given.state.reference_frame_epoch;
+      if (!epoch.empty()) from.epoch = parse_epoch(epoch);
+      const auto& names = time_system_names();
+      const auto system = std::find(names.begin(), names.end(), given.time_system);
+      try {
+        return MessageFrameChange(from, {"GCRF"}, static_cast<TimeSystem>(system - names.begin()),
+                                  given.epoch, given.epoch, earth->orientation)
+            .at(given.epoch);
+      } catch (const Error& error) {
+        table_.fail(file_key, fmt::format("in line {}: {}", given.line, error.what()));
+      }
+    };
+    if (axes_named(given.reference_frame)) {
+      const auto turn = change_from(given.reference_frame).of_state();
+      const Matrix<double> turned = turn * given.matrix * turn.transpose();
+      given.matrix = (turned + turned.transpose()) / 2;
+      given.reference_frame = "GCRF";
+    }
+    if (given.has_state && axes_named(given.state.reference_frame)) {
+      const AxesChange change = change_from(given.state.reference_frame);
+      KnownState& state = given.state;
+      state.velocity_km_s = change.rotation * state.velocity_km_s + change.rate * state.position_km;
+      state.position_km = change.rotation * state.position_km;
+      state.reference_frame = "GCRF";
+      state.reference_frame_epoch.clear();
+    }
+    return given;
   }
 
   GivenCovariance only_one(const std::vector<GivenCovariance>& all) const {

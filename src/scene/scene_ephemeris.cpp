@@ -16,6 +16,8 @@ using std::chrono::year;
 /// Before this day the second of UTC had other lengths.
 constexpr sys_days first_day_of_utc = sys_days(year(1972) / 1 / 1);
 
+constexpr std::int64_t picoseconds_per_day = 86'400'000'000'000'000;
+
 /// A text that an orbit message can hold.
 std::string message_text(const TableReader& ephemeris, std::string_view key) {
   constexpr std::size_t longest = 80;
@@ -62,6 +64,16 @@ void require_same(const TableReader& ephemeris, std::string_view key, const std:
 Epoch read_epoch(const TableReader& table, std::string_view key) {
   const std::string text = table.text(key);
   const auto epoch = parse_epoch(text);
+  // The seconds of Thh:mm:60.
+  const std::size_t second = text.find(":60", text.find('T') + 6);
+  std::string before = text;
+  if (second != std::string::npos) before.replace(second, 3, ":59");
+  if (!epoch && parse_epoch(before)) {
+    table.fail(key, fmt::format("no leap second then, got {}, must be another second: UTC had {}, "
+                                "the last one at the end of {}",
+                                in_quotes(text), days_with_leap_second().size(),
+                                format_epoch({days_with_leap_second().back(), 0}).substr(0, 10)));
+  }
   if (!epoch) {
     table.fail(key, fmt::format("no moment of the calendar, got {}, must be "
                                 "YYYY-MM-DDThh:mm:ss or YYYY-DDDThh:mm:ss, with a fraction "
@@ -69,6 +81,15 @@ Epoch read_epoch(const TableReader& table, std::string_view key) {
                                 in_quotes(text)));
   }
   return *epoch;
+}
+
+void require_leap_second(const TableReader& table, std::string_view key, const Epoch& epoch,
+                         TimeSystem system) {
+  if (system == TimeSystem::utc || epoch.picoseconds < picoseconds_per_day) return;
+  table.fail(
+      key, fmt::format("a leap second, which UTC alone has, got {} {}, must be another "
+                       "second, or a date in UTC",
+                       format_epoch(epoch), time_system_names()[static_cast<std::size_t>(system)]));
 }
 
 ValueForm form_of_epoch() {
@@ -127,6 +148,12 @@ EphemerisSettings read_ephemeris(const TableReader& ephemeris,
       "time_system", settings.time_system,
       [&] { return std::string(time_system_names()[ephemeris.choice("time_system")]); },
       of_file.time_system);
+  if (ephemeris.has("epoch")) {
+    const auto& systems = time_system_names();
+    const auto found = std::find(systems.begin(), systems.end(), settings.time_system);
+    require_leap_second(ephemeris, "epoch", parse_epoch(settings.epoch).value(),
+                        static_cast<TimeSystem>(found - systems.begin()));
+  }
   if (!known) {
     settings.reference_frame = read_frame(ephemeris);
   } else if (ephemeris.has("reference_frame")) {

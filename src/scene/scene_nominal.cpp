@@ -6,9 +6,9 @@
 
 #include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"
-#include "scene_earth.hpp"
 #include "scene_orbit.hpp"
 #include "scene_sections.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -245,13 +245,14 @@ EphemerisSettings settings_of(const ChosenState& chosen) {
 }
 
 /// Reads `key`, oem_file or opm_file, and takes from the message what the other keys select.
-MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
+MessageOfFile read_message(const TableReader& nominal, std::string_view key,
+                           AcceptedFrames frames) {
   const std::string file = printable_path(nominal.path_beside_scene(key));
   const std::string text = nominal.content_beside_scene(key, largest_orbit_message_bytes);
   const auto epoch = wanted_epoch(nominal);
   MessageOfFile result;
   if (key == "oem_file") {
-    OrbitEphemerisMessage message = read_oem(file, text);
+    OrbitEphemerisMessage message = read_oem(file, text, frames);
     result.format = "OEM " + message.version;
     const auto segments = wanted_segments(nominal, std::move(message.segments));
     result.chosen = choose_state(nominal, segments, epoch);
@@ -265,7 +266,7 @@ MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
     add_if_any(&EphemerisSegment::has_covariance, "covariance");
     return result;
   }
-  result.parameters = read_opm(file, text);
+  result.parameters = read_opm(file, text, frames);
   const OrbitParameterMessage& message = *result.parameters;
   result.format = "OPM " + message.version;
   result.unused = message.unused;
@@ -286,9 +287,14 @@ MessageOfFile read_message(const TableReader& nominal, std::string_view key) {
 
 }  // namespace
 
+AcceptedFrames frames_of(const SystemSettings& system) {
+  return system.earth ? AcceptedFrames::terrestrial_too : AcceptedFrames::inertial;
+}
+
 std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table) {
   for (const std::string_view key : {"oem_file", "opm_file"}) {
-    if (table.has(key)) return settings_of(read_message(table, key).chosen);
+    if (table.has(key))
+      return settings_of(read_message(table, key, AcceptedFrames::terrestrial_too).chosen);
   }
   return std::nullopt;
 }
@@ -301,7 +307,7 @@ std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
 NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre) {
   const std::string_view key = nominal.exactly_one_of({"oem_file", "opm_file"});
   const std::string file = printable_path(nominal.path_beside_scene(key));
-  MessageOfFile message = read_message(nominal, key);
+  MessageOfFile message = read_message(nominal, key, frames_of(centre.system));
   if (message.parameters) {
     require_same_mu(nominal, key, centre.system.mu_km3_s2, *message.parameters, file);
   }

@@ -4,6 +4,7 @@
 
 #include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/studies/scene.hpp"
 #include "tables/scene_table.hpp"
 
@@ -37,8 +38,12 @@ inline constexpr double gm_tolerance = 1e-5;
 NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre& centre);
 
 /// The metadata that the message of a table gives for its state; no value for a table without a
-/// file. Throws as read_nominal_file, except for the centre.
+/// file. Throws as read_nominal_file, except for the centre and the frame.
 std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table);
+
+/// The frames in which a scene's messages may be: the model `earth` knows how the Earth's axes
+/// turn.
+AcceptedFrames frames_of(const SystemSettings& system);
 
 /// The epoch of the state that read_nominal_file takes; no value for a table without a file. Throws
 /// as read_nominal_file, except for the centre.

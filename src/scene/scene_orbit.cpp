@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "../text/scene_message.hpp"
-#include "scene_earth.hpp"
 #include "scene_elements.hpp"
 #include "scene_sections.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -7,8 +7,9 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
-#include "scene_earth.hpp"
 #include "scene_relative_motion.hpp"
+#include "systems/scene_earth.hpp"
+#include "systems/scene_own_system.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -27,6 +28,8 @@ void require_dates(const TableReader& root, const Scene& scene) {
                     "epoch, time_system, reference_frame and center_name",
                     (*dated)->name));
   }
+  // The model `earth` has read its date and the span of its flights, across leap seconds too.
+  if (scene.system.earth) return;
   // The key that gives the epoch of the nominal's start.
   const TableReader nominal = root.table("nominal");
   if (root.has("ephemeris") && root.table("ephemeris").has("epoch")) {
@@ -79,7 +82,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   read_table("output",
              [&](const auto& table) { scene.output = read_output(table, scene.system.model); });
   if (nominal.file) scene.ephemeris = nominal.file->ephemeris;
-  if (scene.system.earth) scene.ephemeris = ephemeris_of_earth(root, *scene.system.earth);
+  if (scene.system.earth) scene.ephemeris = ephemeris_of_earth(root);
   const bool has_dates = read_table("ephemeris", [&](const auto& table) {
     scene.ephemeris = read_ephemeris(table, scene.ephemeris, scene.system);
   });
@@ -92,7 +95,8 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     scene.arcs = jet.arcs;
     scene.symmetry = jet.symmetry;
     scene.coordinates = jet.coordinates;
-    set_span_of_earth(scene);
+    set_span_of_earth(root, scene);
+    refuse_fixed_flows(root, scene);
   });
   if (!has_jet || !has_precision) return scene;
 

@@ -17,6 +17,7 @@
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 #include "scene_orbit.hpp"
 #include "scene_relative_motion.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -69,13 +70,19 @@ void require_same_date(const TableReader& table, const Nominal& nominal,
                            message.epoch, message.time_system));
   }
   const EphemerisSettings& chief = *nominal.ephemeris;
-  if (parse_epoch(message.epoch) != parse_epoch(chief.epoch) ||
-      message.time_system != chief.time_system) {
+  const bool is_of_earth = nominal.centre.system.earth.has_value();
+  const bool is_same_moment =
+      is_of_earth ? is_at_start(*nominal.centre.system.earth, parse_epoch(message.epoch).value(),
+                                message.time_system)
+                  : parse_epoch(message.epoch) == parse_epoch(chief.epoch) &&
+                        message.time_system == chief.time_system;
+  if (!is_same_moment) {
     table.fail(table.has("epoch") ? "epoch" : file,
                fmt::format("a state of another moment than the chief's, got {} {}, must be {} {}",
                            message.epoch, message.time_system, chief.epoch, chief.time_system));
   }
-  if (!is_same_axes(message, chief)) {
+  // States about the real Earth are turned into the axes in which both are flown.
+  if (!is_of_earth && !is_same_axes(message, chief)) {
     table.fail(file, fmt::format("a state in other axes than the chief's, got {}, must be {}",
                                  axes_text(message.reference_frame, message.reference_frame_epoch),
                                  axes_text(chief.reference_frame, chief.reference_frame_epoch)));

@@ -55,15 +55,6 @@ void require_centre_of_mass(const TableReader& system, const std::optional<doubl
 GravityFile gravity_file_of(const TableReader& system, const GravityModel& field,
                             const std::optional<double>& origin_offset_km);
 
-/// Throws about a part of the text of a system, see ExpressionTextError, at its key below
-/// `[system]`.
-[[noreturn]] void fail_in_text(const TableReader& system, const std::string& part,
-                               const std::string& problem);
-
-/// Makes the system that the scene writes, if it does, and warns of likely mistakes in it. Throws
-/// Error(scene) if it has no finite values at the nominal's start.
-void set_own_system(const TableReader& system, Scene& scene);
-
 /// The moment at which the nominal of a scene starts, from the table `[ephemeris]` or from the
 /// orbit message that the nominal is read from; no value if there is neither.
 std::optional<Epoch> epoch_of_start(const TableReader& root);
@@ -206,6 +197,10 @@ OutputSettings read_output(const TableReader& output, SystemModel model);
 /// Reads a required key of any table whose value is a moment of the calendar; and the declared form
 /// of such a key.
 Epoch read_epoch(const TableReader& table, std::string_view key);
+
+/// Refuses a date within a leap second in another time system than UTC, which alone has them.
+void require_leap_second(const TableReader& table, std::string_view key, const Epoch& epoch,
+                         TimeSystem system);
 ValueForm form_of_epoch();
 
 /// Table `[ephemeris]`. What is known of time, frame and centre, from the nominal's file or from

@@ -7,10 +7,10 @@
 #include "document/scene_document.hpp"
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
-#include "scene_earth.hpp"
 #include "scene_name.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
+#include "systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -127,7 +127,7 @@ Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) 
   const std::function<Study(const TableReader&)> readers[] = {
       [&](const TableReader& tables) {
         Scene scene = read_flow_jet(tables, units);
-        set_span_of_earth(scene);
+        set_span_of_earth(tables, scene);
         return scene;
       },
       read_canonical_transformation, read_energy_conservation, read_optimal_control};

@@ -337,6 +337,14 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
   settings.times = read_transfer_times(uncertainty, scene, nominal, 1);
   if (uncertainty.has("coordinates")) {
     settings.coordinates = read_compared_coordinates(uncertainty);
+    const auto box = std::find(settings.coordinates.begin(), settings.coordinates.end(),
+                               JetCoordinates::flow_box);
+    if (scene.system.earth && box != settings.coordinates.end()) {
+      uncertainty.fail_element(
+          "coordinates", static_cast<std::size_t>(box - settings.coordinates.begin()),
+          "needs a flow that is the same at every start, and the forces of the model earth depend "
+          "on the time, got \"flow-box\", must be left out");
+    }
   }
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);
   if (settings.acceleration_density_m2_s3 > 0 && (settings.collision || settings.safety)) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hamjet/error.hpp"
+
 namespace hamjet {
 namespace {
 
@@ -40,6 +42,14 @@ TEST(SmallestSingularValue, OfASingularMatrixIsZero) {
   EXPECT_EQ(signed_smallest_singular_value(Eigen::Matrix3d::Zero()), 0);
   EXPECT_EQ(signed_smallest_singular_value(Eigen::Vector3d(3, 0, 0).asDiagonal()), 0);
   EXPECT_EQ(signed_smallest_singular_value(Eigen::Vector3d(3, 0, 2).asDiagonal()), 0);
+}
+
+TEST(SmallestSingularValue, OfNoNumbersIsRefused) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
+    matrix(1, 2) = bad;
+    EXPECT_THROW(signed_smallest_singular_value(matrix), Error);
+  }
 }
 
 }  // namespace

@@ -48,8 +48,10 @@ TEST(EarthOrientation, ATableIsRefusedOutsideItsDates) {
                                  {"2010-07-25T00:00:00", "2010-07-26T00:00:00"},
                                  {"2010-08-19T00:00:00", "2010-08-19T00:00:00"}}) {
     const std::string problem = problem_of([&] { table.between(instant(from), instant(to), 0); });
-    EXPECT_EQ(problem, "finals: no Earth orientation for " + std::string(from).substr(0, 10) +
-                           " to " + std::string(to).substr(0, 10) +
+    const std::string first_day = std::string(from).substr(0, 10);
+    const std::string last_day = std::string(to).substr(0, 10);
+    EXPECT_EQ(problem, "finals: no Earth orientation for " + first_day +
+                           (first_day == last_day ? "" : " to " + last_day) +
                            ", must be within its dates: 2010-07-20 to 2010-07-24, 2010-07-28 to "
                            "2010-07-30");
   }

@@ -67,7 +67,7 @@ class Init : public CommandTest {
 };
 
 TEST_F(Init, EveryKindRunsAsItIs) {
-  for (const char* kind : {"leo", "gto", "geo", "molniya", "pair"}) {
+  for (const char* kind : {"leo", "gto", "geo", "molniya", "pair", "zonal"}) {
     SCOPED_TRACE(kind);
     const std::string file = kind + std::string(".toml");
     const std::string said = succeed({"init", kind}).out;
@@ -102,7 +102,7 @@ TEST_F(Init, NothingIsReplaced) {
 }
 
 TEST_F(Init, MistakesAreNamed) {
-  expect_error({"init"}, 2, {"neither a kind nor --from", "geo, gto, leo, molniya, pair"});
+  expect_error({"init"}, 2, {"neither a kind nor --from", "geo, gto, leo, molniya, pair, zonal"});
   expect_error({"init", "leo", "--from", "x.opm"}, 2, {"a kind and --from"});
   expect_error({"init", "moon"}, 2, {"moon", "leo", "molniya"});
   expect_error({"init", "leo", "-o", "-"}, 2, {"--output: got -", "a scene is a file"});
@@ -130,6 +130,12 @@ TEST_F(Init, StartsFromAMessage) {
             std::string::npos);
   EXPECT_NE(content(directory_ / "one.toml").find("opm_file = \"messages/one.opm\"\n"),
             std::string::npos);
+}
+
+TEST_F(Init, StartsFromAMessageInTheEarthsOwnAxes) {
+  write("one.opm", changed(parameter_message("EARTH"), "EME2000", "ITRF2014"));
+  run_what_is_next(succeed({"init", "--from", "one.opm"}).out);
+  EXPECT_NEAR(start_distance_km("one.toml"), 7000, 1e-9);
 }
 
 TEST_F(Init, AMarkInANameIsLeftAsItIs) {

@@ -91,10 +91,23 @@ TEST(ExpressionText, TakesDefinitionsInAnyOrderAndTheTime) {
   function.definitions = {{"b", "2*a"}, {"a", "x*mu"}};
   const OperationList list = record_function(function);
   EXPECT_EQ(list.inputs(), 4U);
-  EXPECT_EQ(evaluate_function(function, std::vector<Extended>{8, 0, 0, 1})[0], 3);
+  EXPECT_EQ(evaluate_function(function, std::vector<Extended>{8, 0, 0}, 1)[0], 3);
   // What is written twice is computed once, by name or not.
   function.outputs[0].text = "a*a + (mu*x)^2";
   EXPECT_EQ(record_function(function).nonlinear_operations(), 1U);
+}
+
+// By these identities the function is x at every time, so that its list has no time.
+TEST(ExpressionText, HasNoTimeOnWhichNothingDepends) {
+  const OperationList x = record_function(function_of("x"));
+  for (const char* text : {"x + 0*t", "x*t^0", "x + t - t", "x + sin(0*pi*t)", "x + 0*log(t)"}) {
+    const OperationList list = record_function(function_of(text));
+    EXPECT_TRUE(is_same_list(list, x)) << text;
+    EXPECT_EQ(evaluate_function(function_of(text), std::vector<Extended>{8, 0, 0}, 2)[0], 8);
+  }
+  const FunctionText printed = print_list(with_time(x), variables, {"hamiltonian"});
+  EXPECT_TRUE(is_same_list(record_function(printed), x));
+  EXPECT_TRUE(record_function(function_of("x + t*0.5")).has_time());
 }
 
 /// A random expression: its text with as few parentheses as precedence allows, some needless ones

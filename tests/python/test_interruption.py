@@ -114,7 +114,7 @@ def test_other_threads_run_meanwhile(jet):
         return count
 
     counts["evaluate"] = count_during(lambda: jet.evaluate(points))
-    counts["run"] = count_during(lambda: hamjet.run(ORBIT, overrides={"jet.order": 6}))
+    counts["run"] = count_during(lambda: hamjet.run(ORBIT, overrides={"jet.order": 8}))
     # With the GIL held it would be two or three turns.
     assert min(counts.values()) > 20, counts
 

@@ -31,6 +31,7 @@ def objects():
             hamjet.poincare(BOUNDED, overrides=SHORT), hamjet.bounded(BOUNDED, overrides=SHORT),
             hamjet.event(BOUNDED, overrides=[*SHORT, "event.surface='apsis'"]),
             hamjet.uncertainty(UNCERTAINTY),
+            hamjet.system("p^2/2 - g*cos(q)", coordinates="q", parameters={"g": 9.81}),
             hamjet.collision_probability([[7e6, 0, 0, 0, 7546, 0], [7e6, 0, 0, 0, 6622, 3618]],
                                          np.broadcast_to(np.diag([1e4] * 3 + [1e-2] * 3), (2, 6, 6)),
                                          10, (0, 60), samples=4096),

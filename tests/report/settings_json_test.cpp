@@ -122,6 +122,10 @@ TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
                            HAMJET_SOURCE_DIR +
                            "/data/gravity/EGM96-zonals.gfc\"\n"
                            "highest_zonal = 2\n";
+  const std::string own =
+      "model = \"own\"\ncoordinates = [\"x\", \"y\"]\nmomenta = [\"u\", \"v\"]\n"
+      "hamiltonian = \"u^2/2 + v^2/2 - x*y\"\n";
+  const std::string own_end = "[nominal]\ncoordinates = [1, 2]\nmomenta = [0, 0]\n";
   struct Place {
     std::string table;
     std::string nominal;
@@ -142,12 +146,15 @@ TEST(SettingsJson, EveryMemberOfASystemComesFromTheScene) {
       {"omega_rad_per_s", {chain, pair_end, "/omega_rad_per_s", 5}},
       {"pairs", {chain, pair_end, "/pairs", 1}},
       {"gravity_file", {file, orbit_end, "/gravity_file/model_name", "EGM96"}},
+      // The coordinates' names say how many there are.
+      {"own_degrees_of_freedom", {own, own_end, "/coordinates", {"x", "y"}}},
+      {"own_names", {own, own_end, "/momenta", {"u", "v"}}},
+      {"own_text", {own, own_end, "/hamiltonian", "u^2/2 + v^2/2 - x*y"}},
       {"earth",
        {"model = \"earth\"\ngravity_degree = 7\n",
         orbit_end + "epoch_tt = \"2026-03-01T06:00:00\"\n", "/earth/gravity_degree", 7}}};
   for (const std::string_view name : field_names<SystemSettings>()) {
-    if (name == "model") continue;                   // at the top of the file
-    if (name == "own_degrees_of_freedom") continue;  // of a system that no file describes
+    if (name == "model") continue;  // at the top of the file
     SCOPED_TRACE(std::string(name));
     ASSERT_TRUE(places.contains(name));
     const Place& place = places.at(name);

@@ -29,6 +29,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   static const Override plane = {"nominal", "{position_m=[1, 1], momentum_kg_m_s=[0, 0]}"};
   static const std::map<std::string, Place, std::less<>> of_models = {
       {"earth", {"earth/pair"}},
+      {"own", {"own/pendulum"}},
       {"kepler", {orbit_file, {{"system", "{model=\"kepler\", mu_km3_s2=4e5}"}}}},
       {"harmonic-oscillator", {oscillator_file}},
       {"oscillator-pair",
@@ -139,6 +140,10 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
   static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
+  static const Override vector_field = {
+      "system", "{model=\"own\", states=[\"x\", \"v\"], vector_field={x=\"v\", v=\"-x\"}}"};
+  static const Override state = {"nominal", "{states=[1, 0]}"};
+  static const Override no_kinds = {"generating_function", "null"};
   static const std::map<std::string, Place> listed = {
       {"uncertainty.collision.window_s", {"", {}, "[1, 2]"}},
       {"uncertainty.safety.window_s", {"", {}, "[1, 2]"}},
@@ -155,7 +160,7 @@ inline const std::map<std::string, Place>& special_places() {
       {"system.gravity_order", {"", {}, "5"}},
       {"system.orientation_file",
        {"",
-        {{"nominal.epoch_utc", "\"2010-07-20T00:00:00\""}, {"jet.duration_s", "1000"}},
+        {{"nominal.epoch_utc", "\"2010-07-18T12:00:00\""}, {"jet.duration_s", "1000"}},
         "\"../../../tests/fuzz/corpus/earth_orientation/plain.txt\""}},
       {"system.tide_system",
        {"", {{"system.gravity_file", "\"../../gravity/EGM96-to-20.gfc\""}}, "\"tide_free\""}},
@@ -171,6 +176,16 @@ inline const std::map<std::string, Place>& special_places() {
       {"system.gravity_epoch", {"", {field, highest}, "\"2005-01-01T00:00:00\""}},
       {"system.leave_out_C10", {"transfer-sun-synchronous", {field, highest}}},
       {"system.pairs", {"", {}, "1"}},
+      {"system.coordinates", {"", {}, "[\"theta\"]"}},
+      {"system.momenta", {"", {}, "[\"L\"]"}},
+      {"system.hamiltonian", {"", {}, "\"L^2/2 + theta^2\""}},
+      {"system.parameters", {"", {}, "{g = 2, h = \"g/3\"}"}},
+      {"system.definitions", {"", {}, "{speed = \"L/2\"}"}},
+      {"system.states", {"own/pendulum", {vector_field, state, no_kinds}, "[\"x\", \"v\"]"}},
+      {"system.vector_field",
+       {"own/pendulum", {vector_field, state, no_kinds}, "{x = \"v\", v = \"-2*x\"}"}},
+      {"nominal.states", {"own/pendulum", {vector_field, state, no_kinds}, "[1, 2]"}},
+      {"units.time_s", {"own/pendulum", {{"units", "{length_km=1, time_s=1}"}}}},
       {"nominal.a_km", {"", {}, "10000"}},
       {"nominal.position_km", {"", {cartesian}, "[7000, 1, 0]"}},
       {"nominal.velocity_km_s", {"", {cartesian}, "[0, 7, 1]"}},

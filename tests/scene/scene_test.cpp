@@ -291,6 +291,8 @@ TEST(ShippedScenes, AreAllRead) {
     EXPECT_EQ(scene.name, entry.path().stem().string());
     // A study of relative motion uses one integrator, and is proved by flying.
     if (scene.transfer || scene.deputy || scene.bounded) continue;
+    // Jets of systems that scenes write are compared with closed forms and published numbers.
+    if (scene.system.model == SystemModel::own) continue;
     EXPECT_TRUE(scene.reference.has_value()) << entry.path();
     EXPECT_GE(scene.integrators.size(), 2U) << entry.path();
   }

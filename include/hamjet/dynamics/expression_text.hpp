@@ -71,23 +71,24 @@ bool is_reserved_name(std::string_view name);
 bool is_expression_name(std::string_view name);
 
 /// The list that computes the outputs. Its inputs are the variables and, behind them, the time if
-/// the text uses it. Throws ExpressionTextError for whatever is wrong in the text, also where no
-/// output needs it.
+/// an output depends on it, as none does by 0*t. Throws ExpressionTextError for whatever is wrong
+/// in the text, also where no output needs it.
 OperationList record_function(const FunctionText& function);
 
-/// The values of the outputs at a point, in extended precision: the variables, and the time behind
-/// them if the text uses it. Throws ExpressionTextError at the first operation of the text that has
-/// no finite value there.
+/// The values of the outputs in extended precision, for values of the variables and a time. Throws
+/// ExpressionTextError at the first operation of the text that has no finite value there, and
+/// Error(usage) for another number of variables.
 std::vector<Extended> evaluate_function(const FunctionText& function,
-                                        std::span<const Extended> point);
+                                        std::span<const Extended> point, const Extended& time = 0);
 
 /// Names of parameters and definitions that no output needs, as "parameters.<name>" and
 /// "definitions.<name>".
 std::vector<std::string> unused_names(const FunctionText& function);
 
-/// A list as text, whose `record_function` gives the same list, operation by operation. `variables`
-/// and `outputs` are names for its inputs without the time, and for its outputs. Throws
-/// Error(usage) for other numbers of names, and for lists with fields or functions of the time.
+/// A list as text, whose `record_function` gives the same list, operation by operation; a time on
+/// which no output depends is left out. `variables` and `outputs` are names for its inputs without
+/// the time, and for its outputs. Throws Error(usage) for other numbers of names, and for lists
+/// with fields or functions of the time.
 FunctionText print_list(const OperationList& list, const std::vector<std::string>& variables,
                         const std::vector<std::string>& outputs);
 

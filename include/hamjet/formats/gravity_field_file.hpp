@@ -31,6 +31,10 @@ struct GravityModel {
   std::optional<Epoch> epoch;
 };
 
+/// What the header of a file says; coefficients are not read. Throws as parse_gravity_field for a
+/// header.
+GravityModel parse_gravity_model(const std::string& name, std::string_view text);
+
 /// The zonal part of a gravity field.
 struct GravityField : GravityModel {
   ZonalCoefficients J;  ///< coefficients that were asked for, not normalised, J_n = -C_n0

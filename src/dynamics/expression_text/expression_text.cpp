@@ -408,20 +408,22 @@ bool is_expression_name(std::string_view name) {
 OperationList record_function(const FunctionText& function) {
   ParsedFunction parsed(function);
   const bool has_time = parsed.uses_time();
-  return record(
+  const OperationList list = record(
       function.variables.size() + (has_time ? 1 : 0),
       [&](std::span<const Expression> inputs) { return parsed.outputs(inputs); }, has_time);
+  return list.depends_on_time() ? list : at_time(list, 0);
 }
 
 std::vector<Extended> evaluate_function(const FunctionText& function,
-                                        std::span<const Extended> point) {
+                                        std::span<const Extended> point, const Extended& time) {
   ParsedFunction parsed(function);
-  const std::size_t inputs = function.variables.size() + (parsed.uses_time() ? 1 : 0);
-  if (point.size() != inputs) {
+  const std::size_t variables = function.variables.size();
+  if (point.size() != variables) {
     throw Error(ErrorKind::usage,
-                fmt::format("function of a text: {} numbers, must be {}", point.size(), inputs));
+                fmt::format("function of a text: {} numbers, must be {}", point.size(), variables));
   }
-  const std::vector<Expression> values(point.begin(), point.end());
+  std::vector<Expression> values(point.begin(), point.end());
+  if (parsed.uses_time()) values.emplace_back(time);
   std::vector<Extended> result;
   for (const Expression& e : parsed.outputs(values)) result.push_back(e.constant());
   return result;

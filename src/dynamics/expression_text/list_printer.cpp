@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamjet/detail/dynamics/expression.hpp"
 #include "hamjet/dynamics/expression_text.hpp"
 
 // Lists are read again by the same recorder, which folds, orders and shares operations as it did
@@ -189,13 +190,15 @@ bool is_same_list(const OperationList& a, const OperationList& b) {
          std::equal(a.outputs().begin(), a.outputs().end(), b.outputs().begin(), b.outputs().end());
 }
 
-FunctionText print_list(const OperationList& list, const std::vector<std::string>& variables,
+FunctionText print_list(const OperationList& given, const std::vector<std::string>& variables,
                         const std::vector<std::string>& outputs) {
-  for (const Operation& o : list.operations()) {
+  for (const Operation& o : given.operations()) {
     if (o.code < OperationCode::time_function) continue;
     throw Error(ErrorKind::usage,
                 "text of a list: it has fields or functions of the time, which have no text");
   }
+  // A text says nothing of a time that it does not use.
+  const OperationList list = given.depends_on_time() ? given : at_time(given, 0);
   if (list.variables() != variables.size() || list.outputs().size() != outputs.size()) {
     throw Error(
         ErrorKind::usage,

@@ -132,11 +132,10 @@ DynamicalSystem make_system(std::string name, const SystemText& text) {
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
                        std::span<const double> state, double time) {
   const FunctionText function = function_of(text);
-  std::vector<Extended> point(
+  const std::vector<Extended> point(
       state.begin(), state.begin() + static_cast<std::ptrdiff_t>(function.variables.size()));
-  if (record_function(function).has_time()) point.emplace_back(time);
   try {
-    evaluate_function(function, point);
+    evaluate_function(function, point, Extended(time));
   } catch (const ExpressionTextError& error) {
     fail_part(error.part(), "at the start: " + error.problem());
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hamjet/astronomy/earth_orientation.hpp"
+#include "hamjet/astronomy/instant.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/version.hpp"
 
@@ -19,6 +21,16 @@ std::string ascii(std::string text) {
   return text;
 }
 
+std::string earth_text(const SystemSettings& system) {
+  const EarthSettings& earth = *system.earth;
+  return fmt::format(
+      "Model: {}, GM = {} km**3/s**2, radius {} km, {} to {} x {}{}{}; no drag, no radiation "
+      "pressure, no tides, no relativity",
+      model_name(system.model), system.mu_km3_s2, system.radius_km,
+      system.gravity_file->model_name.empty() ? "the field" : system.gravity_file->model_name,
+      earth.degree, earth.order, earth.has_sun ? ", Sun" : "", earth.has_moon ? ", Moon" : "");
+}
+
 std::string model_text(const SystemSettings& system) {
   std::string text =
       fmt::format("Model: {}, GM = {} km**3/s**2", model_name(system.model), system.mu_km3_s2);
@@ -30,6 +42,12 @@ std::string model_text(const SystemSettings& system) {
 }
 
 }  // namespace
+
+TimeSystem time_system_of(const EphemerisSettings& settings) {
+  const auto& names = time_system_names();
+  return static_cast<TimeSystem>(std::find(names.begin(), names.end(), settings.time_system) -
+                                 names.begin());
+}
 
 Epoch current_epoch() {
   const auto moment = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -45,6 +63,12 @@ std::vector<std::string> origin_comments(const Scene& scene, const std::string& 
 
 std::vector<std::string> model_comments(const Scene& scene) {
   const EphemerisSettings& settings = *scene.ephemeris;
+  if (const auto& earth = scene.system.earth) {
+    return {ascii(earth_text(scene.system)),
+            earth->orientation
+                ? ascii("The Earth's orientation: IAU 2006/2000A and " + earth->orientation_file)
+                : EarthOrientation::without_table()};
+  }
   return {model_text(scene.system),
           fmt::format(
               "The axes of {} are taken as inertial{}", settings.reference_frame,
@@ -65,6 +89,10 @@ Epoch moment_of(const Scene& scene, double time) {
   const EphemerisSettings& settings = *scene.ephemeris;
   const Epoch start = parse_epoch(settings.epoch).value();
   const Extended seconds = Extended(time) * scene.units.time_s;
+  if (scene.system.earth) {
+    const Instant first{parse_epoch(scene.system.earth->epoch_tt).value()};
+    return epoch_of(later(first, seconds), time_system_of(settings));
+  }
   const auto epoch = later(start, seconds);
   const bool is_dated =
       epoch && !(settings.time_system == "UTC" && leap_second_between(start, *epoch));

@@ -13,6 +13,9 @@ namespace hamjet::io {
 /// The present time in UTC, to the second.
 Epoch current_epoch();
 
+/// The time system of a scene's dates.
+TimeSystem time_system_of(const EphemerisSettings& settings);
+
 /// Which program wrote the message, from which scene, and what the message describes; printable
 /// ASCII.
 std::vector<std::string> origin_comments(const Scene& scene, const std::string& source);

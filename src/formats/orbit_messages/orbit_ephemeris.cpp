@@ -11,6 +11,7 @@
 #include "dated_scene.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "hamjet/formats/orbit_message_axes.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -24,11 +25,12 @@ OrbitEphemerisMessage message_of(const Scene& scene, const std::string& source) 
   message.originator = settings.originator;
   message.comments = origin_comments(scene, source);
   EphemerisSegment segment;
-  segment.metadata = {settings.object_name,     settings.object_id, settings.center_name,
-                      settings.reference_frame, TimeSystem::utc,    std::nullopt};
-  const auto& names = time_system_names();
-  segment.metadata.time_system = static_cast<TimeSystem>(
-      std::find(names.begin(), names.end(), settings.time_system) - names.begin());
+  segment.metadata = {settings.object_name,
+                      settings.object_id,
+                      settings.center_name,
+                      scene.system.earth ? scene.system.earth->axes : settings.reference_frame,
+                      time_system_of(settings),
+                      std::nullopt};
   if (!settings.reference_frame_epoch.empty()) {
     segment.metadata.reference_frame_epoch = parse_epoch(settings.reference_frame_epoch).value();
   }
@@ -48,9 +50,26 @@ OrbitState orbit_state(const Scene& scene, double time, std::span<const double> 
   return result;
 }
 
+/// Turns states that are flown along GCRF into the axes that the scene asks for. The span of the
+/// change begins no later than the scene, for without a table UT1 = UTC where it begins.
+void turn_to_axes(const Scene& scene, std::vector<OrbitState>& states) {
+  if (!scene.system.earth || states.empty()) return;
+  const EarthSettings& earth = *scene.system.earth;
+  Epoch first = moment_of(scene, 0), last = first;
+  for (const OrbitState& state : states) {
+    first = std::min(first, state.epoch);
+    last = std::max(last, state.epoch);
+  }
+  const MessageFrameChange change({scene.ephemeris->reference_frame}, {earth.axes},
+                                  time_system_of(*scene.ephemeris), first, last, earth.orientation);
+  for (OrbitState& state : states) state = change.of(state);
+}
+
 /// Adds states in order of time, whatever the direction in which they are given; of two states
 /// within a picosecond the first one stays.
-void add_states(OrbitEphemerisMessage& message, std::vector<OrbitState> states) {
+void add_states(const Scene& scene, OrbitEphemerisMessage& message,
+                std::vector<OrbitState> states) {
+  turn_to_axes(scene, states);
   std::stable_sort(states.begin(), states.end(),
                    [](const OrbitState& a, const OrbitState& b) { return a.epoch < b.epoch; });
   const auto end =
@@ -100,7 +119,9 @@ OrbitParameterMessage opm_at(const PropagationResult& result, const RunResult& r
   message.originator = std::move(common.originator);
   message.metadata = std::move(segment.metadata);
   message.state_comments = std::move(segment.comments);
-  message.state = orbit_state(result.scene, time, state);
+  std::vector<OrbitState> one = {orbit_state(result.scene, time, state)};
+  turn_to_axes(result.scene, one);
+  message.state = one.front();
   return message;
 }
 
@@ -124,7 +145,7 @@ OrbitEphemerisMessage nominal_of(const PropagationResult& result, const RunResul
   for (const NominalPoint& point : run.nominal) {
     states.push_back(orbit_state(result.scene, point.time, point.state));
   }
-  add_states(message, std::move(states));
+  add_states(result.scene, message, std::move(states));
   return message;
 }
 
@@ -164,7 +185,7 @@ std::vector<ReportFile> transfer_oems(const TransferResult& result,
   const Scene& scene = result.scene;
   OrbitEphemerisMessage chief =
       message_of(scene, "The chief, flown with the full equations of motion");
-  add_states(chief, flown_states(scene, trajectory.times, trajectory.chief));
+  add_states(scene, chief, flown_states(scene, trajectory.times, trajectory.chief));
 
   OrbitEphemerisMessage deputy = message_of(
       scene, fmt::format("The deputy of the best transfer relative to {}, flown with the full "
@@ -182,7 +203,7 @@ std::vector<ReportFile> transfer_oems(const TransferResult& result,
   segment.comments.push_back("First change: " + change_text(answer.start_change_m_s, frame));
   segment.comments.push_back("Second change: " + change_text(answer.end_change_m_s, frame));
   segment.comments.push_back(fmt::format("It misses its place by {:.3g} m", answer.miss_m));
-  add_states(deputy, flown_states(scene, trajectory.times, trajectory.deputy));
+  add_states(scene, deputy, flown_states(scene, trajectory.times, trajectory.deputy));
   std::vector<ReportFile> files;
   if (scene.output.has(oem_format.name)) {
     files = {{"chief.oem", oem_text(chief)}, {"deputy.oem", oem_text(deputy)}};

@@ -44,8 +44,12 @@ class Symbol:
     """A variable, or what was computed from variables. Operators, powers, and NumPy's functions
     give further symbols; what needs a number, such as math.sin, float(), or a branch, raises."""
 
-    __slots__ = ("_kind", "_operands", "_uses", "_depth")
+    __slots__ = ("_kind", "_operands", "_depth")
     __array_priority__ = 1000
+
+    _kind: str
+    _operands: tuple[Any, ...]
+    _depth: int
 
     def __init__(self, kind: str, operands: tuple[Any, ...]) -> None:
         self._kind = kind
@@ -167,12 +171,13 @@ _MADE_OF_OTHERS: dict[str, Callable[..., Any]] = {
 }
 
 
-def call(name: str, arguments: Iterable[Any]) -> Any:
+def call(name: str, arguments: Iterable[Any]) -> Symbol:
     """A function of NumPy on symbols, or on symbols and numbers."""
     if name in _FUNCTIONS:
         return Symbol(_FUNCTIONS[name], tuple(_operand(a) for a in arguments))
     if name in _MADE_OF_OTHERS:
-        return _MADE_OF_OTHERS[name](*arguments)
+        made: Symbol = _MADE_OF_OTHERS[name](*arguments)
+        return made
     if name in ("less", "less_equal", "greater", "greater_equal", "equal", "not_equal", "maximum",
                 "minimum", "fmax", "fmin", "logical_and", "logical_or", "logical_not", "isfinite"):
         raise UsageError(_BRANCH.format(f"numpy.{name} of a symbol"))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from . import _hamjet
+from . import _hamjet, shown
 from .errors import UsageError
 from .symbols import Symbol, Writer, number_text
 
@@ -31,20 +32,25 @@ def _momentum_of(coordinate: str) -> str:
 
 @dataclasses.dataclass(frozen=True)
 class System:
-    """A system of one's own, as text: what `hamjet.system` makes. It can be pickled.
+    """A system of one's own, as text: what `hamjet.system` makes. It can be pickled."""
 
-    coordinates, momenta: names of (q, p); of a vector field, `states` instead. parameters: name to
-    number or expression. definitions: expressions by name that others use. hamiltonian, or
-    vector_field: the expressions.
-    """
-
-    coordinates: tuple[str, ...] = ()
-    momenta: tuple[str, ...] = ()
-    states: tuple[str, ...] = ()
+    coordinates: tuple[str, ...] = ()  #: names; none of a vector field
+    momenta: tuple[str, ...] = ()  #: names, in the order of the coordinates
+    states: tuple[str, ...] = ()  #: names of the variables of a vector field
+    #: Numbers, or expressions of numbers and parameters, by name.
     parameters: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    #: Expressions by name that others use.
     definitions: Mapping[str, str] = dataclasses.field(default_factory=dict)
-    hamiltonian: str | None = None
+    hamiltonian: str | None = None  #: an expression; None of a vector field
+    #: Of each state, the expression of its derivative by the time; None of a Hamiltonian.
     vector_field: Mapping[str, str] | None = None
+
+    def __repr__(self) -> str:
+        kind, names = (("Hamiltonian of", (*self.coordinates, *self.momenta))
+                       if self.hamiltonian is not None else ("vector field of", self.states))
+        return shown.of(self, f": {kind} {shown.listed(names)}\n"
+                        f" parameters: {shown.listed(self.parameters)}; "
+                        f"{len(self.definitions)} definitions")
 
     def tables(self) -> dict[str, Any]:
         """The table `system` of a scene."""
@@ -62,14 +68,15 @@ class System:
 
     def scene(self, start: Any, duration: float, *, order: int = 4,
               units: Mapping[str, float] | None = None,
-              parameters: Mapping[str, Any] | None = None, **tables: Any) -> dict[str, Any]:
+              parameters: Mapping[str, Any] | None = None,
+              tables: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """A scene of this system, for `run`, `trajectory` and others.
 
         start: (q, p) or the states as numbers, or a dict of them by name, in which what is left out
         is 0. duration: in the system's own time. order: of the jet. units: what lengths and times of
         1 mean, {"length_km": ..., "time_s": ...}; without it metres and seconds. parameters: other
-        values of some. Further keywords are tables of the scene, such as
-        generating_function={"kinds": ["F1"]}; the entries of `jet` are added to its table.
+        values of some. tables: further tables of the scene, such as
+        {"generating_function": {"kinds": ["F1"]}}; entries of "jet" are added to its table.
         """
         system = self.tables()
         if parameters:
@@ -94,9 +101,10 @@ class System:
         n = len(self.coordinates)
         nominal = ({"coordinates": values[:n], "momenta": values[n:]}
                    if self.hamiltonian is not None else {"states": values})
-        jet = {"order": order, "duration_canonical": float(duration), **tables.pop("jet", {})}
+        more = dict(tables or {})
+        jet = {"order": order, "duration_canonical": float(duration), **more.pop("jet", {})}
         scene = {"schema": 1, "title": "A system of one's own", "system": system,
-                 "nominal": nominal, "jet": jet, **tables}
+                 "nominal": nominal, "jet": jet, **more}
         if units is not None:
             scene["units"] = dict(units)
         return scene
@@ -215,9 +223,6 @@ def _traced(function: Callable[..., Any], vectors: Mapping[str, tuple[str, ...]]
         known[vector] = _array([symbols[name] for name in names])
     known["z"] = _array([symbols[n] for v in vectors.values() for n in v])
     known.update(symbols)  # a variable of the name q is itself
-    if all(len(names) == 1 for names in vectors.values()):
-        # Of one degree of freedom, q and p are numbers unless they are indexed.
-        pass
     arguments = []
     keywords = {}
     for name, parameter in inspect.signature(function).parameters.items():
@@ -244,10 +249,11 @@ def _array(symbols: list[Symbol]) -> Any:
 
 def _of_sympy(expressions: list[Any], names: list[str]) -> tuple[list[str], dict[str, str]]:
     """SymPy's expressions as text; common parts become definitions."""
-    import sympy  # type: ignore[import-untyped]
-    from sympy.printing.str import StrPrinter  # type: ignore[import-untyped]
+    # SymPy is there, because its expressions are; its types differ between versions.
+    sympy: Any = importlib.import_module("sympy")
+    printers: Any = importlib.import_module("sympy.printing.str")
 
-    class Printer(StrPrinter):  # type: ignore[misc]
+    class Printer(printers.StrPrinter):  # type: ignore[misc]
         def _print_Float(self, number: Any) -> str:
             return repr(float(number)) if number._prec <= 53 else str(number)
 

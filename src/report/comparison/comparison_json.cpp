@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "../../scene/system_json.hpp"
+#include "../../scene/systems/system_json.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/reference.hpp"

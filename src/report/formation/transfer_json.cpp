@@ -1,6 +1,6 @@
 #include "transfer_json.hpp"
 
-#include "../../scene/system_json.hpp"
+#include "../../scene/systems/system_json.hpp"
 #include "../../store/json_values.hpp"
 #include "drift_view.hpp"
 #include "hamjet/version.hpp"

@@ -34,11 +34,13 @@ std::string force_text(const Scene& scene, const std::vector<ForceSize>& forces)
     text += fmt::format("               {}\n", EarthOrientation::without_table());
   }
   if (forces.empty()) return text;
-  text += fmt::format("  left out     {:24} {:>14}  {:>12}  {:>14}\n", "", "largest m/s^2", "chief",
-                      scene.deputy ? "deputy - chief" : "");
+  // Lines of 79 characters, which are not wrapped.
+  constexpr auto row = "    {:18} {:>9}  {:>9}  {:>14}  {}\n";
+  text += "  left out\n";
+  text += fmt::format(row, "", "m/s^2", "chief", scene.deputy ? "deputy - chief" : "", "by");
   for (const ForceSize& force : forces) {
-    text += fmt::format("               {:24} {:14.2e}  {:>12}  {:>14}  ({})\n", force.name,
-                        force.largest_m_s2, length_text(force.chief_m),
+    text += fmt::format(row, force.name, fmt::format("{:.2e}", force.largest_m_s2),
+                        length_text(force.chief_m),
                         force.relative_m ? length_text(*force.relative_m) : "", force.key);
   }
   return text;

@@ -2,7 +2,7 @@
 
 #include "../../formats/jet_description.hpp"
 #include "../../formats/results_names.hpp"
-#include "../../scene/system_json.hpp"
+#include "../../scene/systems/system_json.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/kept_tolerance.hpp"

@@ -44,10 +44,12 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings) {
 
 ZonalGravity orbit_field(const Scene& scene) {
   if (!make_system(scene).is_autonomous()) {
-    throw Error(ErrorKind::scene,
-                "model: its forces depend on the time, must be zonal-gravity or kepler for flow "
-                "boxes, nodal sections and frozen orbits, which need the flow to be the same at "
-                "every start; jet.coordinates = \"cartesian\" needs none");
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("system.model: its forces depend on the time, got {}, must be zonal-gravity or "
+                    "kepler for flow boxes, nodal sections and frozen orbits, which need a flow "
+                    "that is the same at every start",
+                    model_name(scene.system.model)));
   }
   return {canonical_mu, scene.canonical_radius, scene.system.J};
 }

@@ -43,6 +43,15 @@ constexpr const char* days_of_january_2000 =
     " 0 1 4 51547.00 I  0.043449 0.000071  0.377115 0.000089  I 0.3532407 0.0000115\n"
     " 0 1 5 51548.00 I  0.043220 0.000080  0.376793 0.000088  I 0.3527584 0.0000184\n";
 
+constexpr const char* days_of_july_2010 =
+    "10 723 55400.00 I  0.119491 0.000030  0.477191 0.000056  I-0.0526032 0.0000093\n"
+    "10 724 55401.00 I  0.121692 0.000019  0.476334 0.000037  I-0.0518769 0.0000106\n"
+    "10 725 55402.00 I  0.123778 0.000030  0.475023 0.000040  I-0.0511681 0.0000079\n"
+    "10 726 55403.00 I  0.126216 0.000030  0.473590 0.000039  I-0.0505881 0.0000079\n"
+    "10 727 55404.00 I  0.128828 0.000027  0.472334 0.000027  I-0.0501943 0.0000080\n"
+    "10 728 55405.00 I  0.131240 0.000037  0.471305 0.000029  I-0.0499766 0.0000071\n"
+    "10 729 55406.00 I  0.133349 0.000037  0.470477 0.000030  I-0.0498633 0.0000062\n";
+
 /// Where the chief of a scene is after a time, km along the axes of GCRF.
 Vector3d flown_km(const Scene& scene, double seconds) {
   const double time = seconds / scene.units.time_s;
@@ -67,6 +76,7 @@ class PublishedOrbits : public ::testing::Test {
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(folder_.path() / name) << text;
   }
+  std::filesystem::path place(const std::string& name) const { return folder_.path() / name; }
   void copy(const std::string& name) const {
     std::filesystem::copy_file(
         std::filesystem::path(HAMJET_SOURCE_DIR) / "tests" / "studies" / "earth" / name,
@@ -124,6 +134,55 @@ duration_s = 86400
   const Vector3d end(-5751.935197673, 4719.330857046, 2048.776230999);
   const Vector3d flown = in_eme2000(orbit, flown_km(orbit, 86400));
   EXPECT_LE((flown - end).norm(), 1e-5) << (flown - end).transpose();
+}
+
+/// The ITRF states of GRACE A and B at the start of 27 July 2010 (GPS), of their precise orbits by
+/// the University of Bern.
+constexpr const char* grace_a =
+    "position_km = [2046.250381, 270.772369, 6513.38404]\n"
+    "velocity_km_s = [-7.239398858, -0.6729940446, 2.309389481]\n";
+constexpr const char* grace_b =
+    "position_km = [1828.856677, 255.622214, 6578.281838]\n"
+    "velocity_km_s = [-7.312129371, -0.6693183586, 2.067191873]\n";
+
+std::string grace_scene(const std::string& field, const char* satellite) {
+  return "[system]\nmodel = \"earth\"\norientation_file = \"finals.txt\"\n" + field +
+         "[nominal]\naxes = \"ITRF\"\nepoch_gps = \"2010-07-27T00:00:00\"\n" + satellite +
+         "[jet]\norder = 1\nduration_s = 86400\n";
+}
+
+/// What a day of low orbit makes of other interpolations of the Earth's orientation between its
+/// days, where two of the table's own errors, 1e-5 s of UT1, turn the field by a centimetre.
+constexpr double interpolations_km = 1e-5;
+
+// A program written for this comparison: normalised harmonics by their own recursion, ERFA's
+// matrices, Sun and Moon, and Adams's method of order 11 in steps of 5 s.
+TEST_F(PublishedOrbits, OfGraceByAnotherProgram) {
+  put("finals.txt", days_of_july_2010);
+  const Scene a = scene(grace_scene("gravity_degree = 20\n", grace_a));
+  const Scene b = scene(grace_scene("gravity_degree = 20\n", grace_b));
+  const Vector3d end_a(-4181.8121207, 5177.7966642, -1631.0696043);
+  const Vector3d end_b(-4151.2038947, 5129.7626802, -1849.4335214);
+  const Vector3d error_a = flown_km(a, 86400) - end_a;
+  const Vector3d error_b = flown_km(b, 86400) - end_b;
+  EXPECT_LE(error_a.norm(), interpolations_km) << error_a.transpose();
+  EXPECT_LE((error_b - error_a).norm(), interpolations_km) << error_b.transpose();
+}
+
+// The same with EGM2008 to 70 x 70. The satellites' own distance was 5.4 m less by their orbits.
+TEST_F(PublishedOrbits, OfGraceWithAFieldOfDegree70) {
+  const std::filesystem::path field =
+      std::filesystem::path(HAMJET_SOURCE_DIR) / ".." / "shared" / "gravity" / "EGM2008_120.gfc";
+  if (!std::filesystem::exists(field)) GTEST_SKIP() << "the field EGM2008 is not there";
+  std::filesystem::copy_file(field, place("EGM2008.gfc"));
+  put("finals.txt", days_of_july_2010);
+  const std::string keys = "gravity_file = \"EGM2008.gfc\"\ngravity_degree = 70\n";
+  const Vector3d end_a(-4181.8279150, 5177.7924903, -1631.1114912);
+  const Vector3d end_b(-4151.2173804, 5129.7543882, -1849.4884010);
+  const Vector3d error_a = flown_km(scene(grace_scene(keys, grace_a)), 86400) - end_a;
+  const Vector3d error_b = flown_km(scene(grace_scene(keys, grace_b)), 86400) - end_b;
+  EXPECT_LE(error_a.norm(), interpolations_km) << error_a.transpose();
+  EXPECT_LE((error_b - error_a).norm(), interpolations_km) << error_b.transpose();
 }
 
 }  // namespace

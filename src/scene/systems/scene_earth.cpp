@@ -6,15 +6,15 @@
 #include <array>
 #include <cmath>
 
-#include "../dynamics/fields/spherical_harmonic_field.hpp"
-#include "../store/sealed_summary.hpp"
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../dynamics/fields/spherical_harmonic_field.hpp"
+#include "../../store/sealed_summary.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/earth_orientation_file.hpp"
 #include "scene_earth_field.hpp"
-#include "scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -44,11 +44,20 @@ std::vector<std::string_view> given_epochs(const TableReader& nominal) {
   return given;
 }
 
-/// The date at which the nominal stands: of the keys, of the message, or of [ephemeris].
+/// The date at which the nominal stands, and the key that says it: that of the nominal's epoch, of
+/// its message, or of [ephemeris].
 struct Date {
   Epoch epoch;
   TimeSystem system;
+  TableReader table;
+  std::string_view key;
 };
+
+/// The dates at which the Earth's axes, the Sun and the Moon are known: UTC began in 1960, and the
+/// series of the Sun (ERFA's eraEpv00) are fitted from 1900 to 2100.
+constexpr std::chrono::sys_days first_known_day = std::chrono::year(1960) / 1 / 1;
+constexpr std::chrono::sys_days last_known_day = std::chrono::year(2099) / 12 / 31;
+constexpr std::string_view right_dates = "must be from 1960-01-01 to 2099-12-31";
 
 TimeSystem system_named(std::string_view name) {
   const auto& names = time_system_names();
@@ -68,12 +77,13 @@ Date read_date(const TableReader& root) {
       nominal.fail(given[0], fmt::format("the message has its own epoch, got {}, must be left out",
                                          nominal.found(given[0])));
     }
-    return {parse_epoch(of_file->epoch).value(), system_named(of_file->time_system)};
+    return {parse_epoch(of_file->epoch).value(), system_named(of_file->time_system), nominal,
+            nominal.exactly_one_of({"oem_file", "opm_file"})};
   }
   if (!given.empty()) {
     const auto key = std::find_if(epoch_key_names.begin(), epoch_key_names.end(),
                                   [&](const EpochKey& one) { return one.name == given[0]; });
-    return {read_epoch(nominal, key->name), key->system};
+    return {read_epoch(nominal, key->name), key->system, nominal, key->name};
   }
   if (nominal.has("epoch")) {
     nominal.fail("epoch", fmt::format("without a time system, got {}, {}", nominal.found("epoch"),
@@ -83,10 +93,47 @@ Date read_date(const TableReader& root) {
       root.table("ephemeris").has("time_system")) {
     const TableReader ephemeris = root.table("ephemeris");
     return {read_epoch(ephemeris, "epoch"),
-            static_cast<TimeSystem>(ephemeris.choice("time_system"))};
+            static_cast<TimeSystem>(ephemeris.choice("time_system")), ephemeris, "epoch"};
   }
   nominal.fail(
       "", fmt::format("no epoch, got a scene of the model earth without one, {}", right_epoch));
+}
+
+/// The moment of a date, which must be one at which the Earth's axes are known.
+Instant instant_of_date(const Date& date) {
+  const std::string_view name = time_system_names()[static_cast<std::size_t>(date.system)];
+  const std::string got = fmt::format("got {} {}", format_epoch(date.epoch), name);
+  require_leap_second(date.table, date.key, date.epoch, date.system);
+  const auto day = date.epoch.day;
+  if (day < first_known_day || day > last_known_day) {
+    date.table.fail(date.key,
+                    fmt::format("a date at which the Earth's axes or the Sun are not known, {}, {}",
+                                got, right_dates));
+  }
+  const Instant instant = instant_of(date.epoch, date.system);
+  if (instant < instant_of({first_known_day, 0}, TimeSystem::utc)) {
+    date.table.fail(date.key, fmt::format("before UTC began, {}, {} in UTC", got, right_dates));
+  }
+  return instant;
+}
+
+/// The moment at which the axes of a message lie: that of the frame, or of the state.
+Instant axes_moment(const EphemerisSettings& message) {
+  const bool is_fixed = !message.reference_frame_epoch.empty();
+  return instant_of(parse_epoch(is_fixed ? message.reference_frame_epoch : message.epoch).value(),
+                    system_named(message.time_system));
+}
+
+/// Refuses a table of the Earth's orientation that ends before the scene's flights, or begins
+/// after them.
+void require_orientation(const TableReader& root, const EarthSettings& earth) {
+  if (!earth.orientation) return;
+  const Instant epoch{parse_epoch(earth.epoch_tt).value()};
+  try {
+    earth.orientation->between(later(epoch, earth.first_s), later(epoch, earth.last_s), 0);
+  } catch (const Error& error) {
+    root.table("system").fail("orientation_file", error.what());
+  }
 }
 
 void read_orientation(const TableReader& system, EarthSettings& earth) {
@@ -129,8 +176,8 @@ std::vector<SceneKey> epoch_keys() {
   }
   keys.push_back({"axes",
                   form::choice(axes_names),
-                  absent::value("GCRF"),
-                  "in which the model earth is given orbits",
+                  absent::other("`\"GCRF\"`, or those of the message"),
+                  "in which the model earth is given orbits, and messages are written",
                   {orbits}});
   return keys;
 }
@@ -150,16 +197,9 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
   const TableReader system = root.table("system");
   EarthSettings earth;
   const Date date = read_date(root);
-  const Instant epoch = [&] {
-    try {
-      return instant_of(date.epoch, date.system);
-    } catch (const Error& error) {
-      root.table("nominal").fail("", error.what());
-    }
-  }();
-  earth.epoch_tt = format_epoch(epoch.tt);
+  earth.epoch_tt = format_epoch(instant_of_date(date).tt);
   if (date.system == TimeSystem::utc) {
-    if (const auto doubt = doubt_of_utc(date.epoch)) root.table("nominal").warn("", *doubt);
+    if (const auto doubt = doubt_of_utc(date.epoch)) date.table.warn(date.key, *doubt);
   }
   if (system.has("gravity_degree"))
     earth.degree = static_cast<int>(system.integer("gravity_degree"));
@@ -192,8 +232,14 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
   read_mu("mu_sun_km3_s2", earth.mu_sun_km3_s2, earth.has_sun);
   read_mu("mu_moon_km3_s2", earth.mu_moon_km3_s2, earth.has_moon);
   read_orientation(system, earth);
+  require_orientation(root, earth);
   const TableReader nominal = root.table("nominal");
-  if (nominal.has("axes")) earth.axes = axes_names[nominal.choice("axes")];
+  if (nominal.has("axes")) {
+    earth.axes = axes_names[nominal.choice("axes")];
+  } else if (const auto message = settings_of_orbit_file(nominal);
+             message && message->reference_frame_epoch.empty()) {
+    earth.axes = message->reference_frame;
+  }
   settings.earth = std::move(earth);
 }
 
@@ -201,17 +247,23 @@ CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
                        const std::optional<NominalFile>& file, const EarthSettings& earth) {
   const std::string name = file ? file->ephemeris.reference_frame : earth.axes;
   const auto axes = axes_named(name);
+  // Keys of a scene have been compared with the names of axes; a message has more of them.
+  const std::string_view key = file ? table.exactly_one_of({"oem_file", "opm_file"}) : "axes";
   if (!axes) {
-    table.fail("", fmt::format("axes that are not known, got {}, must be one of: {}",
-                               in_quotes(name), listed(axes_names)));
+    table.fail(key, fmt::format("axes that are not known beside those of the Earth, got {}, must "
+                                "be one of: {}",
+                                in_quotes(name), listed(axes_names)));
   }
   if (*axes == EarthAxes::gcrf) return state;
   Instant moment{parse_epoch(earth.epoch_tt).value()};
-  if (file) {
-    moment = instant_of(parse_epoch(file->ephemeris.epoch).value(),
-                        system_named(file->ephemeris.time_system));
-  }
-  const AxesChange change = axes_change(*axes, EarthAxes::gcrf, moment, earth.orientation);
+  if (file) moment = axes_moment(file->ephemeris);
+  const AxesChange change = [&] {
+    try {
+      return axes_change(*axes, EarthAxes::gcrf, moment, earth.orientation);
+    } catch (const Error& error) {
+      table.fail(key, error.what());
+    }
+  }();
   CartesianState result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.position_km[i] = result.velocity_km_s[i] = 0;
@@ -225,9 +277,21 @@ CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
   return result;
 }
 
-EphemerisSettings ephemeris_of_earth(const TableReader& root, const EarthSettings&) {
+bool is_at_start(const EarthSettings& earth, const Epoch& epoch, std::string_view time_system) {
+  // Times of TDB are rounded where they become those of TT.
+  constexpr double rounding_s = 1e-9;
+  const Instant start{parse_epoch(earth.epoch_tt).value()};
+  const TimeSystem system = system_named(time_system);
+  if (system == TimeSystem::utc && epoch.day < first_known_day) return false;
+  const Instant moment = instant_of(epoch, system);
+  return abs(seconds_between(start, moment)) < rounding_s;
+}
+
+EphemerisSettings ephemeris_of_earth(const TableReader& root) {
   const Date date = read_date(root);
-  EphemerisSettings settings;
+  EphemerisSettings settings =
+      settings_of_orbit_file(root.table("nominal")).value_or(EphemerisSettings());
+  settings.reference_frame_epoch.clear();
   settings.epoch = format_epoch(date.epoch);
   settings.time_system = time_system_names()[static_cast<std::size_t>(date.system)];
   settings.reference_frame = "GCRF";
@@ -235,7 +299,34 @@ EphemerisSettings ephemeris_of_earth(const TableReader& root, const EarthSetting
   return settings;
 }
 
-void set_span_of_earth(Scene& scene) {
+void refuse_fixed_flows(const TableReader& root, const Scene& scene) {
+  if (!scene.system.earth) return;
+  constexpr std::string_view why =
+      "needs a flow that is the same at every start, and the forces of the model earth depend on "
+      "the time";
+  constexpr std::string_view other_model =
+      "or system.model = \"zonal-gravity\" with the field's zonal harmonics";
+  const TableReader jet = root.table("jet");
+  for (const auto& [key, coordinates] : {std::pair("coordinates", scene.coordinates.start),
+                                         std::pair("end_coordinates", scene.coordinates.end)}) {
+    if (coordinates != JetCoordinates::flow_box || !jet.has(key)) continue;
+    jet.fail(key,
+             fmt::format("{}, got \"flow-box\", must be other coordinates, such as \"auto\", {}",
+                         why, other_model));
+  }
+  if (has_time_shift(scene.symmetry)) {
+    jet.fail("symmetry", fmt::format("{}, got \"rotation-and-time\", must be \"rotation\" or "
+                                     "\"none\", {}",
+                                     why, other_model));
+  }
+  for (const std::string_view study : {"bounded", "event"}) {
+    if (!root.has(study)) continue;
+    root.table(study).fail(
+        "", fmt::format("{}, got the table [{}], must be left out, {}", why, study, other_model));
+  }
+}
+
+void set_span_of_earth(const TableReader& root, Scene& scene) {
   if (!scene.system.earth) return;
   double first = 0, last = 0;
   const auto reach = [&](double time) {
@@ -259,6 +350,21 @@ void set_span_of_earth(Scene& scene) {
   EarthSettings& earth = *scene.system.earth;
   earth.first_s = first * scene.units.time_s;
   earth.last_s = last * scene.units.time_s;
+  const Date date = read_date(root);
+  const Instant epoch{parse_epoch(earth.epoch_tt).value()};
+  const auto seconds_to = [&](std::chrono::sys_days day) {
+    return convert<double>(seconds_between(epoch, {Epoch{day, 0}}));
+  };
+  const bool is_before = earth.first_s < seconds_to(first_known_day);
+  if (is_before || earth.last_s > seconds_to(last_known_day + std::chrono::days(1))) {
+    const double span = is_before ? earth.first_s : earth.last_s;
+    date.table.fail(
+        date.key,
+        fmt::format("flights that leave the dates at which the Earth's axes and the Sun are known, "
+                    "got {} and {:.6g} s from it, {}",
+                    format_epoch(date.epoch), span, right_dates));
+  }
+  require_orientation(root, earth);
 }
 
 }  // namespace hamjet::io

@@ -2,17 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <utility>
 #include <variant>
 
-#include "../store/text_file.hpp"
-#include "../studies/descriptions/system_description.hpp"
+#include "../../store/text_file.hpp"
+#include "../../studies/descriptions/system_description.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
 #include "scene_earth.hpp"
 #include "scene_earth_field.hpp"
-#include "scene_sections.hpp"
+#include "scene_own_system.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -148,9 +147,16 @@ void read_gravity_file(const TableReader& root, SystemSettings& settings) {
     }
   }
   const ZonalChoice choice = read_zonal_choice(root);
-  const GravityField field = parse_gravity_field(
-      printable_path(system.path_beside_scene("gravity_file")),
-      system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
+  const std::string name = printable_path(system.path_beside_scene("gravity_file"));
+  const std::string text = system.content_beside_scene("gravity_file", largest_gravity_field_bytes);
+  const int max_degree = parse_gravity_model(name, text).max_degree;
+  const int degree = choice.degrees.empty() ? choice.highest : choice.degrees.back();
+  if (degree > max_degree) {
+    system.fail(choice.degrees.empty() ? "highest_zonal" : "zonals",
+                fmt::format("beyond the file's, got {}, must be at most {}, the max_degree of {}",
+                            degree, max_degree, name));
+  }
+  const GravityField field = parse_gravity_field(name, text, choice);
   require_centre_of_mass(system, field.origin_offset_km, field.radius_km);
   settings.mu_km3_s2 = field.mu_km3_s2;
   settings.radius_km = field.radius_km;
@@ -216,114 +222,6 @@ GravityFile gravity_file_of(const TableReader& system, const GravityModel& field
                         .origin_offset_m = origin_offset_km};
   if (auto& offset = result.origin_offset_m) *offset *= 1000;
   return result;
-}
-
-namespace {
-
-/// The owner of keys of systems that the scene writes.
-const std::vector<std::string_view>& own_model() {
-  static const std::vector<std::string_view> owner = {description_of(SystemModel::own).name};
-  return owner;
-}
-
-std::vector<SceneKey> own_keys() {
-  ValueForm of_table;
-  of_table.type = ValueForm::Type::table;
-  const auto table_of = [&](std::string words) { return form::words(std::move(words), of_table); };
-  const std::vector<std::string_view>& own = own_model();
-  return {{"coordinates", form::array(form::text()), absent::other("`states`"), "their names", own},
-          {"momenta", form::array(form::text()), absent::other("`states`"),
-           "their names, in the order of the coordinates", own},
-          {"hamiltonian", form::text(), absent::other("`vector_field`"),
-           "an expression, see [expressions](../expressions.md)", own},
-          {"parameters", table_of("table of numbers, or of expressions of them"),
-           absent::other("none"), "constants by name", own},
-          {"definitions", table_of("table of expressions"), absent::other("none"),
-           "expressions by name, in any order", own},
-          {"states", form::array(form::text()), absent::other("`coordinates` and `momenta`"),
-           "names of the variables of a vector field", own},
-          {"vector_field", table_of("table of expressions"), absent::other("`hamiltonian`"),
-           "of each state, its derivative by the time", own}};
-}
-
-/// The entries of a table of texts and numbers.
-std::vector<NamedText> read_named_texts(const TableReader& system, std::string_view key,
-                                        bool may_be_numbers) {
-  if (!system.has(key)) return {};
-  const TableReader table = system.table(key);
-  std::vector<NamedText> texts;
-  for (const std::string& name : table.keys()) {
-    if (const auto text = table.text_if_any(name)) {
-      texts.push_back({name, *text});
-    } else if (may_be_numbers && table.is_number(name)) {
-      texts.push_back({name, fmt::format("{}", table.number(name))});
-    } else {
-      table.fail(name, fmt::format("wrong type, got {}, must be {}an expression as a string",
-                                   table.found(name), may_be_numbers ? "a number or " : ""));
-    }
-  }
-  return texts;
-}
-
-/// Reads a part of the text of a system; what is wrong in it is said about the key that it stands
-/// in.
-void attempt_text(const TableReader& system, const std::function<void()>& part) {
-  try {
-    part();
-  } catch (const ExpressionTextError& error) {
-    fail_in_text(system, error.part(), error.problem());
-  }
-}
-
-void refuse_beside(const TableReader& system, std::string_view key, std::string_view other,
-                   std::string_view right) {
-  if (!system.has(key)) return;
-  system.fail(key, fmt::format("beside {}, got {}, must be {}", other, system.found(key), right));
-}
-
-void read_own_system(const TableReader& system, SystemSettings& settings) {
-  SystemText text;
-  if (system.exactly_one_of({"hamiltonian", "vector_field"}) == "hamiltonian") {
-    refuse_beside(system, "states", "a hamiltonian", "coordinates and momenta");
-    text.coordinates = system.texts("coordinates");
-    text.momenta = system.texts("momenta");
-    text.hamiltonian = system.text("hamiltonian");
-  } else {
-    for (const std::string_view key : {"coordinates", "momenta"}) {
-      refuse_beside(system, key, "a vector_field", "states");
-    }
-    text.states = system.texts("states");
-    text.vector_field = read_named_texts(system, "vector_field", true);
-  }
-  text.parameters = read_named_texts(system, "parameters", true);
-  text.definitions = read_named_texts(system, "definitions", true);
-  attempt_text(system, [&] { make_system("own", text); });
-  settings.own_degrees_of_freedom = text.degrees_of_freedom();
-  settings.own_names = text.variables();
-  settings.own_text = std::move(text);
-}
-
-}  // namespace
-
-void fail_in_text(const TableReader& system, const std::string& part, const std::string& problem) {
-  const std::size_t dot = part.find('.');
-  if (dot == part.npos) system.fail(part, problem);
-  system.table(part.substr(0, dot)).fail(part.substr(dot + 1), problem);
-}
-
-void set_own_system(const TableReader& system, Scene& scene) {
-  if (!scene.system.own_text) return;
-  const SystemText& text = *scene.system.own_text;
-  DynamicalSystem made = make_system("own", text);
-  attempt_text(system, [&] { require_finite_at(text, made, scene.nominal); });
-  for (const auto& [part, what] : likely_mistakes(text, made)) {
-    const std::size_t dot = part.find('.');
-    const std::string head = dot == part.npos
-                                 ? system.head(part)
-                                 : system.table(part.substr(0, dot)).head(part.substr(dot + 1));
-    scene.warnings.push_back(fmt::format("{}{}: {}", warning_head, head, what));
-  }
-  scene.own_system = std::make_shared<const DynamicalSystem>(std::move(made));
 }
 
 const TableDescription& system_table() {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "../tables/scene_table.hpp"
 #include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "tables/scene_table.hpp"
 
 namespace hamjet::io {
 

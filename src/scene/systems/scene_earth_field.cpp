@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
-#include "scene_sections.hpp"
 #include "shipped_gravity_field.hpp"
 
 namespace hamjet::io {
@@ -28,6 +28,43 @@ void require_origin(const TableReader& system, const HarmonicField& field) {
     distance_km = std::hypot((*offset)[0], (*offset)[1], (*offset)[2]);
   }
   require_centre_of_mass(system, distance_km, field.radius_km);
+}
+
+/// Refuses a degree beyond the file's.
+void require_degree(const TableReader& system, int degree, const GravityModel& model,
+                    const std::string& name) {
+  if (degree <= model.max_degree) return;
+  const std::string right =
+      fmt::format("must be at most {}, the max_degree of {}", model.max_degree, name);
+  if (system.has("gravity_degree")) {
+    system.fail("gravity_degree", fmt::format("beyond the file's, got {}, {}", degree, right));
+  }
+  system.fail("gravity_file",
+              fmt::format("no gravity_degree beside a file below degree {}, which is taken without "
+                          "that key, {}",
+                          degree, right));
+}
+
+/// Refuses a file whose tide system nobody says, and one that says another than the scene.
+void require_tide_system(const TableReader& system, const GravityModel& model,
+                         const std::string& name) {
+  const bool is_said =
+      std::find(tide_systems.begin(), tide_systems.end(), model.tide_system) != tide_systems.end();
+  if (!system.has("tide_system")) {
+    if (is_said) return;
+    system.fail("gravity_file",
+                fmt::format("a file that does not say whether C(2,0) contains the permanent tide, "
+                            "got tide_system {} in {}, must be tide_free or zero_tide there, or "
+                            "with tide_system = \"tide_free\" or \"zero_tide\" in [system]: one "
+                            "taken for the other is 10 m after a day of a low orbit",
+                            in_quotes(model.tide_system), name));
+  }
+  if (is_said && system.text("tide_system") != model.tide_system) {
+    system.fail(
+        "tide_system",
+        fmt::format("not that of the file, got {}, must be {}, as in {}, or left out",
+                    in_quotes(system.text("tide_system")), in_quotes(model.tide_system), name));
+  }
 }
 
 /// J_n = -sqrt(2n + 1) C_n0 of normalised coefficients.
@@ -63,9 +100,13 @@ void read_earth_field(const TableReader& system, const Epoch& epoch, SystemSetti
   choice.epoch = [epoch]() -> std::optional<Epoch> { return epoch; };
   HarmonicField field;
   if (system.has("gravity_file")) {
-    field = parse_harmonic_field(
-        printable_path(system.path_beside_scene("gravity_file")),
-        system.content_beside_scene("gravity_file", largest_gravity_field_bytes), choice);
+    const std::string name = printable_path(system.path_beside_scene("gravity_file"));
+    const std::string text =
+        system.content_beside_scene("gravity_file", largest_gravity_field_bytes);
+    const GravityModel model = parse_gravity_model(name, text);
+    require_degree(system, earth.degree, model, name);
+    require_tide_system(system, model, name);
+    field = parse_harmonic_field(name, text, choice);
   } else {
     if (system.has("tide_system")) {
       system.fail("tide_system", fmt::format("without a gravity_file, got {}, must be left out",

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <variant>
 
-#include "../store/json_values.hpp"
-#include "../studies/descriptions/system_description.hpp"
-#include "scene_sections.hpp"
+#include "../../store/json_values.hpp"
+#include "../../studies/descriptions/system_description.hpp"
+#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {
