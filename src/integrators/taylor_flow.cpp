@@ -86,6 +86,7 @@ void TaylorFlow::expand(std::span<const double> times) {
   const std::size_t timed = std::min(times.size(), lanes);
   powers_.fill(highest_power_);
   field_.set_time(clock_);
+  field_.expect_power(timed == 0 ? highest_power_ : fewest);
   proved_ = Lanes();
   std::size_t proved = 0;
   Lanes square;     // squares of the durations in the lanes' units of time

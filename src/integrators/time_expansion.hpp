@@ -73,6 +73,10 @@ class TimeExpansion {
   /// Sets the unit of the time in which powers are counted, before power 1; it is 1 without a call.
   void set_unit(const T& unit) { unit_ = unit; }
 
+  /// Tells that powers up to this one will be formed, so that fields are asked for their
+  /// coefficients at once; further powers may follow. It is 4 without a call.
+  void expect_power(int power) { expected_power_ = std::max(power, 1); }
+
   /// Forms the coefficients of t^k of all values; those of lower powers must be known.
   void expand(int k) {
     if (k == 0) {
@@ -214,9 +218,8 @@ class TimeExpansion {
   /// Asks the fields for coefficients of higher degree. Those that are known stay as they are, so
   /// that no digit depends on how far an expansion goes.
   void raise_field_degree() {
-    constexpr int first_degree = 4;
     const int known = field_degree_;
-    field_degree_ = std::min(order_, known == 0 ? first_degree : 2 * known);
+    field_degree_ = std::min(order_, known == 0 ? expected_power_ : 2 * known);
     for (const Step& step : steps_) {
       if (step.code != OperationCode::field) continue;
       const std::size_t place = step.value / stride_;
@@ -263,6 +266,7 @@ class TimeExpansion {
   FieldValues<T, Real> fields_;
   std::vector<std::vector<T>> field_coefficients_;  ///< of the coordinates, by value
   int field_degree_ = 0;
+  int expected_power_ = 4;
   T unit_ = T(Real(1));
   std::map<const TimeFunction*, std::vector<T>> time_values_;
   std::vector<T> coefficients_;

@@ -47,6 +47,44 @@ TEST(FlightChecks, FindTheLowestPointOfEveryFlight) {
       has_failed(flight_checks(scene, {{"the chief", scene.nominal, scene.start_time, 3}})));
 }
 
+// Flights that begin and end together share their arcs. The deputy's lowest point is that of an
+// ellipse as above.
+TEST(FlightChecks, FlownTogetherAreJudgedOneByOne) {
+  const Scene scene = chief(0, 1000);
+  const double e = 0.5;
+  const CheckedFlight circle = {"the chief", scene.nominal, scene.start_time, 3};
+  const CheckedFlight falling = {
+      "the deputy", {1, 0, 0, 0, std::sqrt(1 - e), 0}, scene.start_time, 3};
+  double flown = 0;
+  const auto observe = [&](const FlightArc& arc) {
+    ASSERT_EQ(arc.spacecraft.size(), 2u);
+    EXPECT_EQ(arc.start, flown);
+    flown = arc.time_at(1);
+    const std::vector<double> z = arc.state(0, 1);
+    EXPECT_NEAR(z[0], std::cos(flown), 1e-12);
+  };
+  const std::vector<SelfCheck> checks = flight_checks(scene, {circle, falling}, observe);
+  EXPECT_EQ(flown, 3);
+  EXPECT_FALSE(has_failed(checks));
+  EXPECT_NEAR(*surface(checks).value, 7000 * (1 - e) / (1 + e), 1e-6);
+  const CheckedFlight at_rest = {"the deputy", {1, 0, 0, 0, 0, 0}, scene.start_time, 3};
+  EXPECT_NE(
+      surface(flight_checks(scene, {circle, at_rest})).text.find("the deputy cannot be followed"),
+      std::string::npos);
+  EXPECT_THROW(flight_checks(scene, {circle, at_rest}, [](const FlightArc&) {}), Error);
+}
+
+// An observer sees the flights of a scene that checks nothing.
+TEST(FlightChecks, AreObservedIfTheyAreOff) {
+  Scene scene = chief(0, 1000);
+  scene.checks[SelfCheckName::surface] = {false, std::nullopt};
+  scene.checks[SelfCheckName::energy] = {false, std::nullopt};
+  double flown = 0;
+  flight_checks(scene, flights_of(scene, 3, false),
+                [&](const FlightArc& arc) { flown = arc.time_at(1); });
+  EXPECT_EQ(flown, 3);
+}
+
 TEST(FlightChecks, AreTheScenes) {
   Scene scene = chief(0, 7500);
   const std::vector<CheckedFlight> flights = flights_of(scene, 3, false);

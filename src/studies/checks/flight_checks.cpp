@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "../../algebra/state_sums.hpp"
 #include "../energy_error.hpp"
@@ -25,30 +28,71 @@ struct FlightOutcome {
   double energy_change = 0;  ///< relative
 };
 
-FlightOutcome outcome_of(const SharedSystem& system, const CheckedFlight& flight,
-                         bool measures_energy) {
-  ExtremeDistance least(ExtremeDistance::Kind::least);
-  std::optional<EnergyError> energy;
-  double scale = 0;
-  if (measures_energy) {
-    energy.emplace(*system, flight.start, flight.start_time);
+/// What is measured along one flight.
+class MeasuredFlight {
+ public:
+  MeasuredFlight(const SharedSystem& system, const CheckedFlight& flight, bool measures_energy)
+      : flight_(&flight) {
+    if (!measures_energy) return;
+    energy_.emplace(*system, flight.start, flight.start_time);
     // If terms cancel, their sum is no scale for the change.
-    scale = std::max(std::abs(static_cast<double>(energy->initial())),
-                     energy->terms(extended(flight.start)) / 100);
+    scale_ = std::max(std::abs(static_cast<double>(energy_->initial())),
+                      energy_->terms(extended(flight.start)) / 100);
   }
-  FlightOutcome outcome;
-  fly_arcs(system, {flight.start}, flight.start_time, flight.time, [&](const FlightArc& arc) {
-    least.add(arc, place_along(arc, 0));
-    if (!energy) return;
+
+  void add(const FlightArc& arc, std::size_t craft) {
+    least_.add(arc, place_along(arc, craft));
+    if (!energy_) return;
     const Extended change =
-        energy->value(extended(arc.state(0, 1)), flight.start_time + arc.time_at(1)) -
-        energy->initial();
-    const double size = std::abs(static_cast<double>(change)) / scale;
-    if (!(size <= outcome.energy_change)) outcome.energy_change = size;
+        energy_->value(extended(arc.state(craft, 1)), flight_->start_time + arc.time_at(1)) -
+        energy_->initial();
+    const double size = std::abs(static_cast<double>(change)) / scale_;
+    if (!(size <= energy_change_)) energy_change_ = size;
+  }
+
+  FlightOutcome outcome() const {
+    FlightOutcome result;
+    result.lowest.distance = least_.distance();
+    result.lowest.time = least_.time();
+    result.energy_change = energy_change_;
+    return result;
+  }
+
+ private:
+  const CheckedFlight* flight_;
+  ExtremeDistance least_{ExtremeDistance::Kind::least};
+  std::optional<EnergyError> energy_;
+  double scale_ = 0;
+  double energy_change_ = 0;
+};
+
+/// The outcomes of flights that begin and end together, side by side.
+std::vector<FlightOutcome> outcomes_of(const SharedSystem& system,
+                                       std::span<const CheckedFlight> flights, bool measures_energy,
+                                       const std::function<void(const FlightArc&)>& observer = {}) {
+  std::vector<MeasuredFlight> measured;
+  std::vector<std::vector<double>> states;
+  for (const CheckedFlight& flight : flights) {
+    measured.emplace_back(system, flight, measures_energy);
+    states.push_back(flight.start);
+  }
+  fly_arcs(system, std::move(states), flights[0].start_time, flights[0].time,
+           [&](const FlightArc& arc) {
+             for (std::size_t craft = 0; craft < measured.size(); ++craft) {
+               measured[craft].add(arc, craft);
+             }
+             if (observer) observer(arc);
+           });
+  std::vector<FlightOutcome> outcomes;
+  for (const MeasuredFlight& flight : measured) outcomes.push_back(flight.outcome());
+  return outcomes;
+}
+
+bool fly_together(std::span<const CheckedFlight> flights) {
+  return std::all_of(flights.begin(), flights.end(), [&](const CheckedFlight& flight) {
+    return flight.time == flights[0].time &&
+           flight.start_time.in<Extended>() == flights[0].start_time.in<Extended>();
   });
-  outcome.lowest.distance = least.distance();
-  outcome.lowest.time = least.time();
-  return outcome;
 }
 
 void judge_energy(SelfCheck& check, const CheckedFlight& worst, double change,
@@ -113,8 +157,8 @@ LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& 
   return lowest;
 }
 
-std::vector<SelfCheck> flight_checks(const Scene& scene,
-                                     const std::vector<CheckedFlight>& flights) {
+std::vector<SelfCheck> flight_checks(const Scene& scene, const std::vector<CheckedFlight>& flights,
+                                     const std::function<void(const FlightArc&)>& observer) {
   std::vector<SelfCheck> checks(2);
   SelfCheck& energy = checks[0];
   SelfCheck& surface = checks[1];
@@ -139,24 +183,40 @@ std::vector<SelfCheck> flight_checks(const Scene& scene,
     energy.text = "the forces depend on the time, so that no energy is kept";
   }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
-  if (std::none_of(checks.begin(), checks.end(), is_on) || flights.empty()) return checks;
+  const bool is_any_on = std::any_of(checks.begin(), checks.end(), is_on);
+  if (flights.empty() || !(is_any_on || observer)) return checks;
   const Stopwatch watch(energy.seconds);
   const CheckedFlight* leaving = &flights.front();
   const CheckedFlight* falling = &flights.front();
   double change = 0;
+  bool is_flown = false;
   LowestPoint lowest;
   lowest.distance = std::numeric_limits<double>::infinity();
-  for (const CheckedFlight& flight : flights) {
+  const auto take = [&](const CheckedFlight& flight, const FlightOutcome& outcome) {
+    if (!(outcome.energy_change <= change)) {
+      change = outcome.energy_change;
+      leaving = &flight;
+    }
+    if (outcome.lowest.distance < lowest.distance) {
+      lowest = outcome.lowest;
+      falling = &flight;
+    }
+  };
+  if (observer || (flights.size() > 1 && fly_together(flights))) {
     try {
-      const FlightOutcome outcome = outcome_of(system, flight, is_on(energy));
-      if (!(outcome.energy_change <= change)) {
-        change = outcome.energy_change;
-        leaving = &flight;
-      }
-      if (outcome.lowest.distance < lowest.distance) {
-        lowest = outcome.lowest;
-        falling = &flight;
-      }
+      const std::vector<FlightOutcome> outcomes =
+          outcomes_of(system, flights, is_on(energy), observer);
+      for (std::size_t i = 0; i < flights.size(); ++i) take(flights[i], outcomes[i]);
+      is_flown = true;
+    } catch (const Error& error) {
+      // The flights one by one tell which of them it is.
+      if (error.kind() != ErrorKind::numerical || observer) throw;
+    }
+  }
+  for (std::size_t i = 0; i < flights.size() && !is_flown; ++i) {
+    const CheckedFlight& flight = flights[i];
+    try {
+      take(flight, outcomes_of(system, {&flight, 1}, is_on(energy))[0]);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
       for (SelfCheck& check : checks) {

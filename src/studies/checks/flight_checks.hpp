@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "../flights/flight_arcs.hpp"
 #include "hamjet/studies/propagation.hpp"
 
 namespace hamjet {
@@ -34,6 +36,10 @@ LowestPoint lowest_point(const SharedSystem& system, const std::vector<double>& 
 /// full equations of motion; each check reports the flight with the worst outcome. The table
 /// [checks] turns them off and sets their limits, as for a run; the default limit of the energy is
 /// 1e-9. A flight that cannot be followed fails both checks.
-std::vector<SelfCheck> flight_checks(const Scene& scene, const std::vector<CheckedFlight>& flights);
+///
+/// An observer, if given, sees the arcs of all flights side by side, whatever is checked; the
+/// flights then begin and end together, and one that cannot be followed throws as fly_arcs.
+std::vector<SelfCheck> flight_checks(const Scene& scene, const std::vector<CheckedFlight>& flights,
+                                     const std::function<void(const FlightArc&)>& observer = {});
 
 }  // namespace hamjet

@@ -7,6 +7,15 @@
 
 namespace hamjet {
 
+void NearbyFlights::try_tolerance(const std::vector<double>& start, const ClockTime& start_time,
+                                  double duration) {
+  const FlowProblem<double> problem = trajectory_problem(system_, start, start_time, duration);
+  validate(problem);
+  if (!needs_choice(problem, exact_gauss())) return;
+  step_tolerance_ = choose_step_tolerance(problem, exact_gauss()).tolerance;
+  tried_ = std::abs(duration);
+}
+
 std::vector<double> NearbyFlights::end(const std::vector<double>& start,
                                        const ClockTime& start_time, double duration) {
   const FlowProblem<double> problem = trajectory_problem(system_, start, start_time, duration);

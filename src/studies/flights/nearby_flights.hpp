@@ -17,6 +17,10 @@ class NearbyFlights {
  public:
   explicit NearbyFlights(SharedSystem system) : system_(std::move(system)) {}
 
+  /// Tries the tolerance on the flight of a state, for all flights that are no longer.
+  void try_tolerance(const std::vector<double>& start, const ClockTime& start_time,
+                     double duration);
+
   /// As exact_flow.
   std::vector<double> end(const std::vector<double>& start, const ClockTime& start_time,
                           double duration);

@@ -51,7 +51,6 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   result.flown =
       flown_trajectory(scene, deviation, frame, paced_times(scene, scene.duration, count * parts),
                        static_cast<std::size_t>(parts));
-  result.extremes = extreme_separations(scene, deviation, frame, scene.duration);
   result.drift = deputy_drift(scene);
   const auto orders = static_cast<std::size_t>(scene.order);
   result.points.push_back({0, scene.deputy->start, std::vector<double>(orders, 0.0), 0});
@@ -99,7 +98,10 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
     result.flight_floor_m = std::max(result.flight_floor_m, point.flight_floor_m);
     result.points.push_back(std::move(point));
   }
-  result.checks = flight_checks(scene, flights_of(scene, scene.duration, true));
+  SeparationExtremes extremes(scene, frame);
+  result.checks = flight_checks(scene, flights_of(scene, scene.duration, true),
+                                [&](const FlightArc& arc) { extremes.add(arc); });
+  result.extremes = extremes.found();
   result.propagation_seconds = propagation.statistics().wall_seconds;
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "../flights/extreme_distance.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 namespace hamjet {
@@ -20,9 +21,25 @@ struct ExtremeSeparations {
   SeparationAt farthest;
 };
 
+/// Finds the extremes along the arcs of a flight on which the chief is the first spacecraft and the
+/// deputy the second; states are in `frame`. Nothing between the steps of the flight is missed, see
+/// ExtremeDistance.
+class SeparationExtremes {
+ public:
+  SeparationExtremes(const Scene& scene, RelativeFrame frame);
+  void add(const FlightArc& arc);
+  const ExtremeSeparations& found() const { return found_; }
+
+ private:
+  MetricUnits units_;
+  RelativeFrame frame_;
+  ExtremeDistance least_{ExtremeDistance::Kind::least};
+  ExtremeDistance greatest_{ExtremeDistance::Kind::greatest};
+  ExtremeSeparations found_;
+};
+
 /// The extremes for a deputy that starts with this canonical deviation from the scene's chief and
-/// flies for a time without impulses; states are in `frame`. Nothing between the steps of the
-/// flight is missed, see ExtremeDistance. Throws as fly_arcs.
+/// flies for a time without impulses. Throws as fly_arcs.
 ExtremeSeparations extreme_separations(const Scene& scene, const std::vector<double>& deviation,
                                        RelativeFrame frame, double time);
 
