@@ -48,6 +48,7 @@ std::shared_ptr<const DeputyFlow> flow_of_third_degree(const Scene& scene,
 
 EvaluatedScene evaluated_scene(const Scene& scene) {
   require_formation_problem(scene, true, "jet");
+  require_one_spacecraft(scene, "eval");
   EvaluatedScene result;
   io::StoredJet& chief = result.chief;
   const ComputedProblem problem = make_problem(scene);

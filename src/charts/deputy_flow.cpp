@@ -159,28 +159,42 @@ void DeputyPredictor::predict_lower(std::span<const std::size_t> deputies,
 
 namespace {
 
-SixNumbers<double> end_of(const FlowMap<double>& jet) {
-  if (jet.components() != 6 || jet.variables() != 6) {
-    throw Error(ErrorKind::usage, "deputy: a jet of six components in six variables is needed");
+SixNumbers<double> end_of(const FlowMap<double>& jet, std::size_t parameters) {
+  if (jet.components() < 6 || jet.variables() != 6 + parameters) {
+    throw Error(ErrorKind::usage,
+                "deputy: a jet of six components in six variables, and in one for each parameter "
+                "of the deputy, is needed");
   }
   SixNumbers<double> end;
   for (std::size_t i = 0; i < 6; ++i) end[i] = jet.jet()[i][0];
   return end;
 }
 
+/// The polynomials of positions and momenta, without those of parameters, which stay.
+std::vector<Series<double>> phase_space_part(const FlowMap<double>& jet) {
+  std::vector<Series<double>> part = without_constants(jet.jet());
+  part.erase(part.begin() + 6, part.end());
+  return part;
+}
+
 class CartesianDeputyFlow : public DeputyFlow {
  public:
-  explicit CartesianDeputyFlow(const FlowMap<double>& jet)
-      : DeputyFlow(without_constants(jet.jet()), end_of(jet)) {
-    set_derivatives(Matrix<double>::Identity(6, 6), Matrix<double>::Identity(6, 6));
+  CartesianDeputyFlow(const FlowMap<double>& jet, std::span<const double> parameters)
+      : DeputyFlow(phase_space_part(jet), end_of(jet, parameters.size())),
+        parameters_(parameters.begin(), parameters.end()) {
+    const auto width = static_cast<Eigen::Index>(variables());
+    set_derivatives(Matrix<double>::Identity(width, 6), Matrix<double>::Identity(6, 6));
   }
 
  private:
   struct Through : Passage {
+    explicit Through(std::span<const double> parameters) : parameters_(parameters) {}
     void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
                std::span<SixNumbers<double>>) override {
-      for (std::size_t k = 0; k < deviations.size(); ++k) {
-        std::copy_n(deviations[k].begin(), 6, variables.begin() + 6 * static_cast<long>(k));
+      auto out = variables.begin();
+      for (const SixNumbers<double>& deviation : deviations) {
+        out = std::copy(deviation.begin(), deviation.end(), out);
+        out = std::copy(parameters_.begin(), parameters_.end(), out);
       }
     }
     void leave(std::span<const SixNumbers<double>>, std::span<const double> values,
@@ -189,14 +203,20 @@ class CartesianDeputyFlow : public DeputyFlow {
         std::copy_n(values.begin() + 6 * static_cast<long>(k), 6, deviations[k].begin());
       }
     }
+    std::span<const double> parameters_;
   };
-  std::unique_ptr<Passage> passage() const override { return std::make_unique<Through>(); }
+  std::unique_ptr<Passage> passage() const override {
+    return std::make_unique<Through>(parameters_);
+  }
+
+  std::vector<double> parameters_;
 };
 
 }  // namespace
 
-std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet) {
-  return std::make_unique<CartesianDeputyFlow>(jet);
+std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet,
+                                                  std::span<const double> parameters) {
+  return std::make_unique<CartesianDeputyFlow>(jet, parameters);
 }
 
 }  // namespace hamjet

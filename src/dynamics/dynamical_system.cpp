@@ -29,7 +29,9 @@ std::optional<std::vector<Extended>> inverse_mass(const OperationList& field) {
   return matrix;
 }
 
-std::optional<SecondOrderForm> second_order_form(const OperationList& field) {
+std::optional<SecondOrderForm> second_order_form(const OperationList& field,
+                                                 std::size_t parameters) {
+  if (parameters > 0) return std::nullopt;
   const std::size_t n = field.variables() / 2;
   const auto matrix = inverse_mass(field);
   if (!matrix) return std::nullopt;
@@ -43,9 +45,9 @@ std::optional<SecondOrderForm> second_order_form(const OperationList& field) {
   return SecondOrderForm{*matrix, restrict_list(field, positions, forces)};
 }
 
-/// The vector field of z' = J grad H.
-OperationList hamiltonian_field(const OperationList& hamiltonian) {
-  const std::size_t n = hamiltonian.variables() / 2;
+/// The vector field of z' = J grad H, and of parameters that stay.
+OperationList hamiltonian_field(const OperationList& hamiltonian, std::size_t parameters) {
+  const std::size_t n = (hamiltonian.variables() - parameters) / 2;
   const OperationList grad = gradient(hamiltonian);
   return record(
       hamiltonian.inputs(),
@@ -54,6 +56,7 @@ OperationList hamiltonian_field(const OperationList& hamiltonian) {
         std::vector<Expression> field;
         for (std::size_t i = 0; i < n; ++i) field.push_back(values[grad.outputs()[n + i]]);
         for (std::size_t i = 0; i < n; ++i) field.push_back(-values[grad.outputs()[i]]);
+        field.resize(2 * n + parameters, Expression(0));
         return field;
       },
       hamiltonian.has_time());
@@ -68,29 +71,35 @@ int waves_of(const OperationList& list) {
   return waves;
 }
 
-/// Indices of the inputs (or outputs) q_i and p_i of the kept degrees of freedom.
-std::vector<std::size_t> phase_space_indices(std::span<const std::size_t> kept, std::size_t n) {
+/// Indices of the inputs (or outputs) q_i and p_i of the kept degrees of freedom, and of all
+/// parameters.
+std::vector<std::size_t> kept_indices(std::span<const std::size_t> kept,
+                                      const DynamicalSystem& system) {
+  const std::size_t n = system.degrees_of_freedom;
   std::vector<std::size_t> result(kept.begin(), kept.end());
   for (const std::size_t i : kept) result.push_back(n + i);
+  for (std::size_t k = 2 * n; k < system.dimension(); ++k) result.push_back(k);
   return result;
 }
 
 }  // namespace
 
 DynamicalSystem make_system(std::string name, OperationList hamiltonian,
-                            std::optional<OperationList> vector_field) {
+                            std::optional<OperationList> vector_field, std::size_t parameters) {
   const std::size_t dimension = hamiltonian.variables();
-  if (dimension == 0 || dimension % 2 != 0 || hamiltonian.outputs().size() != 1) {
+  if (dimension <= parameters || (dimension - parameters) % 2 != 0 ||
+      hamiltonian.outputs().size() != 1) {
     throw Error(ErrorKind::usage,
                 "system '" + name +
-                    "': a Hamiltonian has 2n inputs (q, p), perhaps the time, and "
+                    "': a Hamiltonian has 2n inputs (q, p), perhaps parameters and the time, and "
                     "one output");
   }
-  OperationList field = vector_field ? std::move(*vector_field) : hamiltonian_field(hamiltonian);
+  OperationList field =
+      vector_field ? std::move(*vector_field) : hamiltonian_field(hamiltonian, parameters);
   if (field.variables() != dimension || field.outputs().size() != dimension) {
     throw Error(ErrorKind::usage, "system '" + name +
-                                      "': a vector field has 2n inputs, perhaps the time, and 2n "
-                                      "outputs");
+                                      "': a vector field has the inputs of the Hamiltonian, and "
+                                      "an output for each of them but the time");
   }
   if (!hamiltonian.depends_on_time() && !field.depends_on_time()) {
     hamiltonian = at_time(hamiltonian, 0);
@@ -101,12 +110,32 @@ DynamicalSystem make_system(std::string name, OperationList hamiltonian,
   }
   DynamicalSystem system;
   system.name = std::move(name);
-  system.degrees_of_freedom = dimension / 2;
-  system.second_order = second_order_form(field);
+  system.degrees_of_freedom = (dimension - parameters) / 2;
+  system.parameters = parameters;
+  system.second_order = second_order_form(field, parameters);
   system.waves_on_a_circle = std::max(waves_of(hamiltonian), waves_of(field));
   system.hamiltonian = std::move(hamiltonian);
   system.vector_field = std::move(field);
   return system;
+}
+
+DynamicalSystem with_force(const DynamicalSystem& system, const ForceFunction& force) {
+  const std::size_t n = system.degrees_of_freedom;
+  const OperationList gravity = with_time(system.vector_field);
+  OperationList field = record(
+      gravity.inputs(),
+      [&](std::span<const Expression> z) {
+        std::vector<Expression> rates = recorded_outputs(gravity, z);
+        const std::vector<Expression> f = force(z);
+        for (std::size_t i = 0; i < n; ++i) rates[n + i] += f.at(i);
+        return rates;
+      },
+      true);
+  DynamicalSystem result =
+      make_system(system.name, system.hamiltonian, std::move(field), system.parameters);
+  result.waves_on_a_circle = system.waves_on_a_circle;
+  result.is_hamiltonian = false;
+  return result;
 }
 
 std::optional<OperationList> conserved_list(const DynamicalSystem& system) {
@@ -137,7 +166,9 @@ std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system
                                                    std::span<const std::size_t> variables) {
   const std::size_t n = system.degrees_of_freedom;
   std::vector<bool> needed(n, false);
-  for (const std::size_t v : variables) needed[v % n] = true;
+  for (const std::size_t v : variables) {
+    if (v < 2 * n) needed[v % n] = true;
+  }
   for (std::size_t i = 0; i < 2 * n; ++i) {
     if (nominal[i] != 0) needed[i % n] = true;
   }
@@ -150,8 +181,7 @@ std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system
     }
     std::vector<std::size_t> all(2 * n);
     std::iota(all.begin(), all.end(), std::size_t{0});
-    const OperationList field =
-        restrict_list(system.vector_field, phase_space_indices(kept, n), all);
+    const OperationList field = restrict_list(system.vector_field, kept_indices(kept, system), all);
     bool grown = false;
     for (std::size_t i = 0; i < 2 * n; ++i) {
       if (!needed[i % n] && !output_vanishes(field, i)) {
@@ -166,11 +196,12 @@ std::vector<std::size_t> needed_degrees_of_freedom(const DynamicalSystem& system
 DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const std::size_t> kept) {
   const std::size_t n = system.degrees_of_freedom;
   if (kept.size() == n) return system;
-  const std::vector<std::size_t> indices = phase_space_indices(kept, n);
+  const std::vector<std::size_t> indices = kept_indices(kept, system);
   const std::vector<std::size_t> scalar{0};
   DynamicalSystem restricted =
       make_system(system.name, restrict_list(system.hamiltonian, indices, scalar),
-                  restrict_list(system.vector_field, indices, indices));
+                  restrict_list(system.vector_field, indices, indices), system.parameters);
+  restricted.is_hamiltonian = system.is_hamiltonian;
   restricted.waves_on_a_circle = system.waves_on_a_circle;
   if (system.uniform_rotation) {
     UniformRotation rotation{{}, system.uniform_rotation->rate};

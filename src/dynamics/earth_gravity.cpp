@@ -1,27 +1,14 @@
 #include "hamjet/dynamics/earth_gravity.hpp"
 
-#include <array>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "hamjet/error.hpp"
+#include "turned_vectors.hpp"
 
 namespace hamjet {
 namespace {
-
-using Vector3 = std::array<Expression, 3>;
-
-/// The product of a matrix, row after row, and a vector.
-Vector3 turned(const std::vector<Expression>& matrix, std::span<const Expression> v) {
-  Vector3 result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = matrix[3 * i] * v[0] + matrix[3 * i + 1] * v[1] + matrix[3 * i + 2] * v[2];
-  }
-  return result;
-}
-
-Expression dot(std::span<const Expression> a, std::span<const Expression> b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 void require(bool is_right, const char* problem) {
   if (!is_right)
@@ -39,22 +26,37 @@ DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
         body.potential != nullptr && body.position != nullptr && body.position->components() == 3,
         "a disturbing body needs a potential and the three components of its position");
   }
-  const auto hamiltonian = [&gravity](std::span<const Expression> q, std::span<const Expression> p,
-                                      const Expression& t) {
+  if (const auto& radiation = gravity.radiation) {
+    require(radiation->potential != nullptr && radiation->sun != nullptr,
+            "the radiation of the Sun needs its potential and its position");
+  }
+  const auto hamiltonian = [&gravity](std::span<const Expression> z) {
+    const auto q = z.first(3), p = z.subspan(3, 3);
+    const Expression& t = z.back();
     const std::vector<Expression> axes = time_values(gravity.axes, t);
-    const Vector3 fixed = turned(axes, q);
+    const ExpressionVector fixed = turned(axes, q);
     Expression potential = field_value(gravity.potential, fixed);
     Expression others(0);
     for (const DisturbingBody& body : gravity.others) {
       const std::vector<Expression> s = time_values(body.position, t);
-      const Vector3 place = turned(axes, s);
+      const ExpressionVector place = turned(axes, s);
       potential += field_value(body.potential,
                                {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
       others -= Expression(body.mu) * pow(dot(s, s), Expression(-1.5)) * dot(q, s);
     }
-    return dot(p, p) / 2 - potential - others;
+    if (const auto& radiation = gravity.radiation) {
+      const std::vector<Expression> s = time_values(radiation->sun, t);
+      const ExpressionVector place = turned(axes, s);
+      Expression light = radiation->coefficient.in(z, 3);
+      if (radiation->light != nullptr) light *= time_values(radiation->light, t)[0];
+      potential -=
+          light * field_value(radiation->potential,
+                              {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
+    }
+    return std::vector<Expression>{dot(p, p) / 2 - potential - others};
   };
-  DynamicalSystem system = make_system("earth", 3, hamiltonian);
+  DynamicalSystem system = make_system("earth", record(7 + gravity.parameters, hamiltonian, true),
+                                       std::nullopt, gravity.parameters);
   system.waves_on_a_circle = gravity.potential->waves_on_a_circle();
   return system;
 }

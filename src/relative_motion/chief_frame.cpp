@@ -8,9 +8,9 @@ namespace hamjet {
 namespace {
 
 void require_size(std::span<const double> numbers, const char* what) {
-  if (numbers.size() != 6) {
+  if (numbers.size() < 6) {
     throw Error(ErrorKind::usage, std::string("relative state: the ") + what +
-                                      " must have 6 numbers, (q, p) of an orbit");
+                                      " must begin with 6 numbers, (q, p) of an orbit");
   }
 }
 

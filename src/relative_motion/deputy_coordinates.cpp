@@ -113,9 +113,9 @@ constexpr std::array<DeputyComponent, 6> element_difference_components = {{
 }};
 
 void require_six(std::span<const double> numbers, const char* what) {
-  if (numbers.size() != 6) {
+  if (numbers.size() < 6) {
     throw Error(ErrorKind::usage, std::string("deputy coordinates: the ") + what +
-                                      " must have 6 numbers, (q, p) of an orbit");
+                                      " must begin with 6 numbers, (q, p) of an orbit");
   }
 }
 

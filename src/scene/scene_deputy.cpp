@@ -1,10 +1,17 @@
 #include "scene_relative_motion.hpp"
+#include "systems/scene_spacecraft.hpp"
 
 namespace hamjet::io {
 
 const TableDescription& deputy_table() {
   static const TableDescription table = {
-      joined<SceneKey>({relative_frame_keys(absent::value("RTN")), relative_state_keys()}),
+      joined<SceneKey>({relative_frame_keys(absent::value("RTN")),
+                        relative_state_keys(),
+                        {{"spacecraft",
+                          form::table(spacecraft_table()),
+                          absent::other("like the chief"),
+                          "what the air does to the deputy",
+                          {orbits}}}}),
       "The second satellite at the start: relative to the chief, or by its own orbit in the keys "
       "of "
       "`[nominal]`, all of one form, of the same moment and in the same axes. The frame is that of "
@@ -21,6 +28,7 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
   settings.start =
       read_relative_state(deputy, nominal, settings.frame,
                           is_anywhere ? DeputyPlace::anywhere : DeputyPlace::near_chief);
+  settings.drag_m2_kg = read_spacecraft(deputy, scene.system);
   return settings;
 }
 

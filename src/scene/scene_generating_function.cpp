@@ -56,7 +56,13 @@ std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedo
 const TableDescription& generating_function_table() {
   static const TableDescription table = {
       {{"kinds", form::words("array of kinds", form::array(form::text())), absent::refused(),
-        "each once: `F1` to `F4`, letters such as `qpq-qqp`, or `auto`, the best conditioned"}}};
+        "each once: `F1` to `F4`, letters such as `qpq-qqp`, or `auto`, the best conditioned"},
+       {"despite_drag",
+        form::boolean(),
+        absent::value(false),
+        "whether to invert the map of a system with drag, which has no potential, and to tell the "
+        "residual that this leaves",
+        {"earth"}}}};
   return table;
 }
 
@@ -64,6 +70,17 @@ std::vector<std::string> read_generating_function(const TableReader& generating_
                                                   const Scene& scene) {
   generating_function.check_keys();
   const std::vector<std::string> kinds = generating_function.texts("kinds");
+  bool despite_drag = false;
+  generating_function.read_if_any("despite_drag", despite_drag);
+  if (scene.system.earth && scene.system.earth->atmosphere && !despite_drag) {
+    generating_function.fail(
+        "kinds",
+        fmt::format(
+            "no potential, got {} of a system with drag, whose map is not symplectic, must "
+            "be left out, or beside despite_drag = true, which tells the exactness residual "
+            "that the forces cause",
+            generating_function.found("kinds")));
+  }
   const std::size_t degrees_of_freedom =
       degrees_of_freedom_of_kinds(generating_function, "kinds", scene);
   std::map<std::string, std::string> named;  // for each explicit kind, the name that the scene uses

@@ -187,6 +187,13 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   jet.read_if_any("coordinates", settings.coordinates.start);
   settings.coordinates.end = settings.coordinates.start;
   jet.read_if_any("end_coordinates", settings.coordinates.end);
+  const bool has_parameter = system.earth && !system.earth->parameters.empty();
+  for (const std::string_view key : {"coordinates", "end_coordinates"}) {
+    if (!has_parameter || !jet.has(key) || jet.text(key) == "cartesian") continue;
+    jet.fail(key, fmt::format("beside a parameter among the variables, got {}, must be "
+                              "\"cartesian\"",
+                              jet.found(key)));
+  }
   if (!settings.coordinates.fit_each_other()) {
     jet.fail("end_coordinates",
              fmt::format("at one end alone, got {} to {}, must be the same at both ends where one "

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../studies/descriptions/system_description.hpp"
+#include "../studies/earth_system.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_orbit.hpp"
 #include "scene_sections.hpp"
@@ -176,6 +177,7 @@ Nominal read_nominal(const TableReader& nominal, const SystemSettings& system,
     const SceneCentre centre = {system, center_name};
     Orbit orbit = read_orbit(nominal, centre);
     Nominal result = canonical_orbit(nominal, orbit.state, system.mu_km3_s2, length_km, units);
+    for (const double value : parameter_values(system)) result.state.push_back(value);
     result.orbit = orbit.state;
     result.centre = centre;
     if (orbit.file) result.ephemeris = orbit.file->ephemeris;

@@ -64,6 +64,8 @@ TableDescription flow_jet_top() {
         optional_table("checks", checks_table(), "all on", "self-checks"),
         optional_table("compare", compare_table(), "the defaults", "of `hamjet compare`"),
         optional_table("figure", figure_table(), none, "`figure.svg`, with its numbers in CSV"),
+        optional_table("spacecraft", spacecraft_table(), "no drag",
+                       "what the air does to the chief"),
         optional_table("deputy", deputy_table(), none, "of `hamjet motion`, `transfer` and `eval`"),
         optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
         optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),

@@ -10,6 +10,9 @@ namespace hamjet {
 std::optional<std::string> reason_not_to_split(const Scene& scene,
                                                const IntegratorSettings& settings) {
   const MethodDescription& method = description_of(settings.method);
+  if (scene.system.earth && !scene.system.earth->parameters.empty()) {
+    return "states with a parameter are not split";
+  }
   if (!method.splittable(settings)) return fmt::format("{} is not available in arcs", method.name);
   if (scene.figure && scene.figure->quantity == FigureQuantity::exactness) {
     return "the figure takes the jet after every step";

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "../dynamics/fields/atmosphere_field.hpp"
+#include "../dynamics/fields/exponential_atmosphere.hpp"
+#include "../dynamics/fields/harris_priester_table.hpp"
 #include "../dynamics/fields/point_mass_field.hpp"
 #include "../dynamics/fields/spherical_harmonic_field.hpp"
 #include "hamjet/astronomy/body_position.hpp"
 #include "hamjet/astronomy/earth_rotation.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
+#include "hamjet/dynamics/spacecraft_forces.hpp"
 
 namespace hamjet {
 namespace {
@@ -25,7 +30,42 @@ SphericalHarmonicCoefficients coefficients_of(const EarthSettings& earth) {
   return result;
 }
 
+/// A coefficient of the chief, or the parameter of that name where states have one.
+SpacecraftCoefficient coefficient(const EarthSettings& earth, std::string_view name, double value) {
+  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), name);
+  if (place == earth.parameters.end()) return {value};
+  return {value, static_cast<std::size_t>(place - earth.parameters.begin())};
+}
+
+constexpr std::string_view drag_name = "drag_m2_kg";
+constexpr std::string_view density_factor_name = "density_factor";
+
+/// The Earth's angular velocity, rad/s (IERS Conventions 2010, table 1.1: 7.292115e-5).
+constexpr double earth_rate = 7.292115e-5;
+
+/// The apex of the bulge follows the Sun by two hours (Montenbruck and Gill, section 3.5).
+constexpr double bulge_lag = std::numbers::pi / 6;
+
 }  // namespace
+
+const std::vector<EarthParameter>& earth_parameters() {
+  static const std::vector<EarthParameter> parameters = {
+      {drag_name, "C_D A / m, in m^2/kg", [](const EarthSettings& e) { return e.drag_m2_kg; }},
+      {density_factor_name, "of all densities of the air",
+       [](const EarthSettings& e) { return e.atmosphere ? e.atmosphere->density_factor : 1; }}};
+  return parameters;
+}
+
+std::vector<double> parameter_values(const SystemSettings& settings) {
+  std::vector<double> values;
+  if (!settings.earth) return values;
+  for (const std::string& name : settings.earth->parameters) {
+    for (const EarthParameter& parameter : earth_parameters()) {
+      if (parameter.name == name) values.push_back(parameter.value(*settings.earth));
+    }
+  }
+  return values;
+}
 
 DynamicalSystem earth_system(const SystemSettings& settings, double canonical_radius) {
   const EarthSettings& earth = settings.earth.value();
@@ -48,7 +88,31 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   };
   add(earth.has_sun, PerturbingBody::sun, earth.mu_sun_km3_s2);
   add(earth.has_moon, PerturbingBody::moon, earth.mu_moon_km3_s2);
-  return earth_gravity(gravity);
+  gravity.parameters = earth.parameters.size();
+  const DynamicalSystem system = earth_gravity(gravity);
+  if (!earth.atmosphere) return system;
+  const AtmosphereSettings& air = *earth.atmosphere;
+  // Densities in kg/m^3 times metres a unit of length, so that B in m^2/kg gives canonical forces.
+  const double density_unit = convert<double>(length_km) * 1000;
+  TurningAtmosphere atmosphere;
+  const auto density = [&](const DensityTable& table) {
+    return std::make_shared<const AtmosphereField>(table, convert<double>(length_km), density_unit);
+  };
+  if (air.model == "exponential") {
+    atmosphere.least = density(exponential_table());
+  } else {
+    const HarrisPriesterTable table = harris_priester_table();
+    atmosphere.least = density(table.minimum);
+    atmosphere.greatest = density(table.maximum);
+    atmosphere.sun = std::make_shared<const BodyPosition>(PerturbingBody::sun, epoch, time_s,
+                                                          convert<double>(length_km), first, last);
+    atmosphere.lag = bulge_lag;
+    atmosphere.exponent = air.bulge_exponent;
+  }
+  atmosphere.rate = earth_rate * convert<double>(time_s);
+  atmosphere.factor = coefficient(earth, density_factor_name, air.density_factor);
+  return with_drag(system, gravity.axes, atmosphere,
+                   coefficient(earth, drag_name, earth.drag_m2_kg));
 }
 
 }  // namespace hamjet

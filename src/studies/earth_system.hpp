@@ -1,9 +1,25 @@
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
+
+/// A quantity that may be a parameter of the model `earth`, and with it a variable of jets and a
+/// difference between spacecraft.
+struct EarthParameter {
+  std::string_view name;  ///< in `jet.variables`, and of its key
+  std::string_view help;
+  double (*value)(const EarthSettings&);  ///< the chief's
+};
+const std::vector<EarthParameter>& earth_parameters();
+
+/// The chief's values of a system's parameters, in the order in which states have them; empty for
+/// other models.
+std::vector<double> parameter_values(const SystemSettings& settings);
 
 /// The system of the model `earth` in canonical units, in which the field's radius is
 /// `canonical_radius` and mu is 1; its clock is 0 at the scene's epoch. Throws as EarthRotation and

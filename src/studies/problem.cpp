@@ -149,6 +149,7 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   problem.system = restrict_system(full, problem.degrees_of_freedom);
   problem.components = problem.degrees_of_freedom;
   for (const std::size_t i : problem.degrees_of_freedom) problem.components.push_back(n + i);
+  for (std::size_t c = 2 * n; c < full.dimension(); ++c) problem.components.push_back(c);
   for (const std::size_t c : problem.components) problem.nominal.push_back(scene.nominal[c]);
   problem.start_time = scene.start_time;
   for (const std::size_t v : scene.variables) {
@@ -156,7 +157,8 @@ ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
     problem.variables.push_back(
         static_cast<std::size_t>(std::distance(problem.components.begin(), place)));
   }
-  problem.is_full_jet = problem.variables.size() == problem.components.size();
+  problem.is_full_jet =
+      full.parameters == 0 && problem.variables.size() == problem.components.size();
   problem.symmetry = scene.symmetry;
   if (has_time_shift(scene.symmetry) && !full.is_autonomous()) {
     throw Error(

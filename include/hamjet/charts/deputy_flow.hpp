@@ -146,9 +146,12 @@ class DeputyPredictor {
   double multiply_adds_ = 0;
 };
 
-/// The flow by the jet in positions and momenta themselves. This function and charted_deputy_flow
-/// throw Error(usage) unless the jet has six components in six variables.
-std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet);
+/// The flow by the jet in positions and momenta themselves. A jet that is expanded in parameters
+/// too serves deputies whose parameters differ from the chief's by `parameters`. This function and
+/// charted_deputy_flow throw Error(usage) unless the jet has six components in six variables, and
+/// here a variable for each parameter.
+std::unique_ptr<DeputyFlow> cartesian_deputy_flow(const FlowMap<double>& jet,
+                                                  std::span<const double> parameters = {});
 
 /// The flow by a map between the coordinates of two charts, one at the start's state and one at the
 /// end's (see in_charts).

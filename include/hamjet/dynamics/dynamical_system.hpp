@@ -3,6 +3,7 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,14 +38,21 @@ struct UniformRotation {
   Extended rate = 0;                               ///< omega
 };
 
-/// A Hamiltonian system with n degrees of freedom, z = (q_1..q_n, p_1..p_n) and
-/// z' = J grad H(z, t), J = [[0, I], [-I, 0]]. A system whose Hamiltonian does not depend on the
-/// time is autonomous; the lists of all others have the time as their last input.
+/// A system with n degrees of freedom, z = (q_1..q_n, p_1..p_n), and
+///
+///   q' = dH/dp ,   p' = -dH/dq + F(q, p, t) ,   c' = 0 .
+///
+/// It is Hamiltonian unless it has forces F that come from no potential, such as drag; see
+/// with_force. The state may end with parameters c, quantities that a flow keeps and that differ
+/// from one spacecraft to another: jets may be expanded in them. A system whose forces do not
+/// depend on the time is autonomous; the lists of all others have the time as their last input.
 struct DynamicalSystem {
   std::string name;
   std::size_t degrees_of_freedom = 0;
-  OperationList hamiltonian;                    ///< 2n inputs (and the time), 1 output
-  OperationList vector_field;                   ///< 2n inputs (and the time), 2n outputs
+  std::size_t parameters = 0;  ///< the number k of parameters c, the last numbers of the state
+  OperationList hamiltonian;   ///< 2n + k inputs (and the time), 1 output
+  OperationList vector_field;  ///< 2n + k inputs (and the time), 2n + k outputs
+  bool is_hamiltonian = true;  ///< whether all forces are those of the Hamiltonian
   std::optional<SecondOrderForm> second_order;  ///< set where the vector field has this structure
   /// The largest number of waves that the field has along a circle about the origin of the
   /// positions, for example the highest degree of a gravity field; 0 where no such wave is known.
@@ -60,11 +68,13 @@ struct DynamicalSystem {
   /// with_uniform_rotation declares it.
   std::optional<UniformRotation> uniform_rotation;
 
-  std::size_t dimension() const noexcept { return 2 * degrees_of_freedom; }
-  /// Whether the system does not depend on the time. The flow then keeps the energy, and commutes
-  /// with shifts in time.
+  /// The length of a state, 2n + k.
+  std::size_t dimension() const noexcept { return 2 * degrees_of_freedom + parameters; }
+  /// Whether the system does not depend on the time. The flow then commutes with shifts in time,
+  /// and that of a Hamiltonian system keeps the energy.
   bool is_autonomous() const noexcept { return !hamiltonian.has_time(); }
   ConservedQuantity conserved_quantity() const noexcept {
+    if (!is_hamiltonian) return ConservedQuantity::none;
     if (is_autonomous()) return ConservedQuantity::energy;
     return uniform_rotation ? ConservedQuantity::jacobi_integral : ConservedQuantity::none;
   }
@@ -109,11 +119,19 @@ concept TimeDependentHamiltonian = requires(const Function& h, std::span<const E
 };
 
 /// Builds a system from the list of its Hamiltonian; the vector field is derived from it unless it
-/// is given. Where neither depends on the time, an input for it is left out. `waves_on_a_circle` is
-/// that of the fields in the lists. Throws Error(usage) if the numbers of inputs or outputs do not
-/// fit.
+/// is given. The last `parameters` inputs before the time are parameters. Where nothing depends on
+/// the time, an input for it is left out. `waves_on_a_circle` is that of the fields in the lists.
+/// Throws Error(usage) if the numbers of inputs or outputs do not fit.
 DynamicalSystem make_system(std::string name, OperationList hamiltonian,
-                            std::optional<OperationList> vector_field = std::nullopt);
+                            std::optional<OperationList> vector_field = std::nullopt,
+                            std::size_t parameters = 0);
+
+/// A force as a function of the inputs (q, p, c, t) of a system that depends on the time.
+using ForceFunction = std::function<std::vector<Expression>(std::span<const Expression>)>;
+
+/// The system with a further force F that comes from no potential, n components added to p'. It is
+/// then no Hamiltonian system; its Hamiltonian is still the energy that the force takes away.
+DynamicalSystem with_force(const DynamicalSystem& system, const ForceFunction& force);
 
 /// Records the Hamiltonian and derives the vector field.
 template <HamiltonianFunction Function>

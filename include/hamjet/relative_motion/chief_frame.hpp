@@ -47,14 +47,14 @@ struct MetricUnits {
 /// Formation Flying".
 class ChiefFrame {
  public:
-  /// `chief` is the inertial state (q, p), 6 canonical numbers. Throws Error(numerical) for RTN if
-  /// the chief moves on a line through the centre, where there is no orbital plane, and
-  /// Error(usage) for other sizes.
+  /// `chief` is the inertial state (q, p), 6 canonical numbers, perhaps followed by parameters.
+  /// Throws Error(numerical) for RTN if the chief moves on a line through the centre, where there
+  /// is no orbital plane, and Error(usage) for other sizes.
   ChiefFrame(std::span<const double> chief, const MetricUnits& units, RelativeFrame frame);
 
   /// The canonical deviation (dq, dp) of a relative state, 6 numbers.
   std::vector<double> deviation(const RelativeState& state) const;
-  /// The relative state of a canonical deviation (dq, dp), 6 numbers.
+  /// The relative state of a canonical deviation (dq, dp), the first 6 numbers.
   RelativeState relative(std::span<const double> deviation) const;
 
   /// A velocity change, m/s along the frame's axes, from its canonical inertial components. It is

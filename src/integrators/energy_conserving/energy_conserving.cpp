@@ -87,6 +87,11 @@ void validate(const EnergyConservingProblem<Real>& problem) {
     throw Error(ErrorKind::usage, fmt::format("energy-conserving integration: {}", what));
   };
   if (!problem.system) fail("no system");
+  if (!problem.system->is_hamiltonian) {
+    fail(
+        "the system has forces that are not those of its Hamiltonian, which these methods take "
+        "alone; the Gauss methods take any system");
+  }
   if (!problem.system->is_autonomous()) {
     fail(
         "the Hamiltonian depends on the time, so that the flow does not keep the energy, by which "

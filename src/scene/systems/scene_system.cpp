@@ -12,6 +12,7 @@
 #include "scene_earth.hpp"
 #include "scene_earth_field.hpp"
 #include "scene_own_system.hpp"
+#include "scene_spacecraft.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -235,7 +236,8 @@ const TableDescription& system_table() {
         result.keys = joined<SceneKey>({result.keys, zonal_gravity_keys()});
       }
       if (system.model == SystemModel::earth) {
-        result.keys = joined<SceneKey>({result.keys, earth_keys(), earth_field_keys()});
+        result.keys =
+            joined<SceneKey>({result.keys, earth_keys(), atmosphere_keys(), earth_field_keys()});
       }
       for (const SystemParameter& parameter : system.parameters) {
         result.keys.push_back(key_of(parameter, system.name));

@@ -13,6 +13,7 @@
 #include "../../algebra/state_sums.hpp"
 #include "../energy_error.hpp"
 #include "../flights/extreme_distance.hpp"
+#include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../stopwatch.hpp"
 #include "hamjet/error.hpp"
@@ -126,10 +127,8 @@ void judge_surface(SelfCheck& check, const Scene& scene, const CheckedFlight& wo
 std::vector<CheckedFlight> flights_of(const Scene& scene, double time, bool with_deputy) {
   std::vector<CheckedFlight> flights = {{"the chief", scene.nominal, scene.start_time, time}};
   if (with_deputy && scene.deputy) {
-    const std::vector<double> deviation =
-        ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
-            .deviation(scene.deputy->start);
-    flights.push_back({"the deputy", state_sum(scene.nominal, deviation), scene.start_time, time});
+    flights.push_back(
+        {"the deputy", state_sum(scene.nominal, deputy_deviation(scene)), scene.start_time, time});
   }
   return flights;
 }

@@ -7,6 +7,7 @@
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
 #include "../flights/paced_times.hpp"
+#include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
@@ -87,21 +88,23 @@ std::vector<Without> forces_of(const EarthSettings& earth) {
   if (earth.has_moon) {
     forces.push_back({"Moon", "moon = false", [](EarthSettings& s) { s.has_moon = false; }});
   }
+  if (earth.atmosphere) {
+    forces.push_back({"drag", "without atmosphere and [spacecraft]",
+                      [](EarthSettings& s) { s.atmosphere.reset(); }});
+  }
   return forces;
 }
 
 }  // namespace
 
-std::vector<ForceSize> force_sizes(const Scene& scene) {
+std::vector<ForceSize> force_sizes(const Scene& asked) {
   std::vector<ForceSize> sizes;
-  if (!scene.system.earth) return sizes;
+  if (!asked.system.earth) return sizes;
+  const Scene scene = with_deputy_parameters(asked);
   const MetricUnits units = metric_units(scene);
   const std::vector<double> times = looks(scene);
   std::optional<std::vector<double>> deputy;
-  if (scene.deputy) {
-    const ChiefFrame frame(scene.nominal, units, scene.deputy->frame);
-    deputy = state_sum(scene.nominal, frame.deviation(scene.deputy->start));
-  }
+  if (scene.deputy) deputy = state_sum(scene.nominal, deputy_deviation(scene));
   const auto fly_from = [&](const SharedSystem& system, const std::vector<double>& state) {
     return fly(system, state, scene.start_time, times);
   };

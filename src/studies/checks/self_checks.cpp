@@ -108,7 +108,8 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
   }
 }
 
-constexpr const char* no_energy = "the forces depend on the time, so that no energy is kept";
+constexpr const char* no_energy =
+    "the forces depend on the time or take energy away, so that no energy is kept";
 
 void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
   const EnergyAlongNominal& energy = run.energy;
@@ -158,6 +159,15 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   }
   if (run.symplecticity.empty()) {
     return not_applicable(check, "the jet is not expanded in all variables");
+  }
+  if (!make_system(scene).is_hamiltonian) {
+    const auto largest =
+        std::max_element(run.symplecticity.begin(), run.symplecticity.end(),
+                         [](const auto& a, const auto& b) { return a.scaled < b.scaled; });
+    return not_applicable(
+        check, fmt::format("drag is no Hamiltonian force, so that the flow is not symplectic: the "
+                           "Poisson brackets miss symplecticity by {:.2g} at degree {}",
+                           largest->scaled, largest->degree));
   }
   if (has_time_shift(run.statistics.left_out)) {
     const auto largest =

@@ -8,6 +8,7 @@
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/deputy_flows.hpp"
+#include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
 
@@ -145,11 +146,11 @@ std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vecto
   return drift;
 }
 
-std::optional<RelativeDrift> deputy_drift(const Scene& scene) {
-  if (!scene.deputy) return std::nullopt;
-  const ChiefFrame frame(scene.nominal, metric_units(scene), scene.deputy->frame);
-  return relative_drift(scene, scene.nominal, frame.deviation(scene.deputy->start),
-                        scene.start_time, scene.deputy->frame);
+std::optional<RelativeDrift> deputy_drift(const Scene& asked) {
+  if (!asked.deputy) return std::nullopt;
+  const Scene scene = with_deputy_parameters(asked);
+  return relative_drift(scene, scene.nominal, deputy_deviation(scene), scene.start_time,
+                        scene.deputy->frame);
 }
 
 }  // namespace hamjet

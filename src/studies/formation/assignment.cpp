@@ -208,6 +208,7 @@ class AssignmentStudy {
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.assignment.has_value() && scene.transfer.has_value(),
                             "assignment");
+  require_one_spacecraft(scene, "assignment");
   return AssignmentStudy(scene, progress).run();
 }
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "../descriptions/method_description.hpp"
+#include "formation_problem.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
@@ -87,8 +88,9 @@ ChartName chart_of(JetCoordinates coordinates) {
 
 std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
                                                const SixNumbers<double>& start,
-                                               const CoordinatesAtEnds& coordinates) {
-  if (coordinates == JetCoordinates::cartesian) return cartesian_deputy_flow(jet);
+                                               const CoordinatesAtEnds& coordinates,
+                                               std::span<const double> parameters) {
+  if (coordinates == JetCoordinates::cartesian) return cartesian_deputy_flow(jet, parameters);
   SixNumbers<double> end;
   for (std::size_t i = 0; i < end.size(); ++i) end[i] = jet.jet()[i][0];
   const CanonicalChart<double> first(chart_of(coordinates.start), start, canonical_mu);
@@ -99,7 +101,10 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
                                              const CoordinatesAtEnds& coordinates)
-    : start_(six_numbers(problem.nominal)), coordinates_(coordinates), time_s_(scene.units.time_s) {
+    : start_(six_numbers(problem.nominal)),
+      coordinates_(coordinates),
+      parameters_(deputy_parameters(scene)),
+      time_s_(scene.units.time_s) {
   if (!coordinates.fit_each_other()) {
     throw Error(
         ErrorKind::usage,
@@ -128,7 +133,7 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   }
   const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));
   return in_coordinates(coordinates_.end, when,
-                        [&] { return deputy_flow_of_jet(jet, start_, coordinates_); });
+                        [&] { return deputy_flow_of_jet(jet, start_, coordinates_, parameters_); });
 }
 
 std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {

@@ -27,10 +27,12 @@ GaussSettings gauss_settings_of(const IntegratorSettings& settings);
 SixNumbers<double> six_numbers(std::span<const double> state);
 
 /// The flow, in coordinates of both ends that are not flow boxes, made from a jet in positions and
-/// momenta about a start. Throws Error(numerical) if an end does not have these coordinates.
+/// momenta about a start. `parameters` are the deputies' less the chief's, of a jet that is
+/// expanded in them. Throws Error(numerical) if an end does not have these coordinates.
 std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
                                                const SixNumbers<double>& start,
-                                               const CoordinatesAtEnds& coordinates);
+                                               const CoordinatesAtEnds& coordinates,
+                                               std::span<const double> parameters = {});
 
 /// Predictions of a scene's polynomials for deputies, in some coordinates, from time to time.
 class DeputyFlowPropagation {
@@ -69,6 +71,7 @@ class DeputyFlowPropagation {
   ZonalGravity field_;
   SixNumbers<double> start_;
   CoordinatesAtEnds coordinates_;
+  std::vector<double> parameters_;      ///< the deputy's less the chief's
   double time_s_;                       ///< the canonical unit of time, for messages
   std::optional<JetPropagation> jets_;  ///< absent for flow boxes
   std::optional<FlowBoxPropagation<double>> boxes_;

@@ -34,8 +34,9 @@ double DeputyMotion::largest_error_m(int order) const {
   return largest;
 }
 
-DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& progress) {
-  require_formation_problem(scene, scene.deputy.has_value(), "deputy");
+DeputyMotion study_deputy_motion(const Scene& asked, const ProgressCallback& progress) {
+  require_formation_problem(asked, asked.deputy.has_value(), "deputy");
+  const Scene scene = with_deputy_parameters(asked);
   if (scene.duration == 0) {
     throw Error(ErrorKind::scene, "deputy: no motion in no time, got a jet.duration of 0");
   }
@@ -43,8 +44,7 @@ DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& pro
   result.scene = scene;
   const MetricUnits units = metric_units(scene);
   const RelativeFrame frame = scene.deputy->frame;
-  const std::vector<double> deviation =
-      ChiefFrame(scene.nominal, units, frame).deviation(scene.deputy->start);
+  const std::vector<double> deviation = deputy_deviation(scene);
   const int count = interval_count(scene, scene.duration, points_of_motion);
   const int parts = (interval_count(scene, scene.duration, drawn_path) + count - 1) / count;
   if (progress) progress("flight", 0);

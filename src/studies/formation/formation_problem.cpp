@@ -6,6 +6,8 @@
 
 #include "../descriptions/method_description.hpp"
 #include "hamjet/error.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
+#include "single_transfer.hpp"
 
 namespace hamjet {
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table) {
@@ -24,6 +26,71 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
     refuse("is computed in double precision, got precision = \"extended\", must be \"double\"");
   }
   symplectic_integrator(scene);
+}
+
+namespace {
+
+constexpr std::string_view drag_name = "drag_m2_kg";
+
+/// Whether the deputy has a C_D A / m of its own.
+bool differs(const Scene& scene) {
+  return scene.system.earth && scene.deputy && scene.deputy->drag_m2_kg &&
+         *scene.deputy->drag_m2_kg != scene.system.earth->drag_m2_kg;
+}
+
+}  // namespace
+
+void require_one_spacecraft(const Scene& scene, std::string_view table) {
+  if (differs(scene)) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{}: is about spacecraft that are alike, got a deputy with drag_m2_kg = "
+                    "{:.6g} beside a chief with {:.6g}, must be the same; motion "
+                    "serves deputies that differ",
+                    table, *scene.deputy->drag_m2_kg, scene.system.earth->drag_m2_kg));
+  }
+  if (scene.system.earth && !scene.system.earth->parameters.empty()) {
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: expands in positions and momenta alone, got jet.variables with "
+                            "{}, must be without it",
+                            table, scene.system.earth->parameters[0]));
+  }
+}
+
+Scene with_deputy_parameters(Scene scene) {
+  if (!differs(scene)) return scene;
+  EarthSettings& earth = *scene.system.earth;
+  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_name);
+  if (place != earth.parameters.end()) return scene;
+  if (!earth.parameters.empty()) {
+    throw Error(ErrorKind::scene,
+                fmt::format("deputy.spacecraft: differs from the chief's, got jet.variables with "
+                            "{}, must be without it: jets have one parameter",
+                            earth.parameters[0]));
+  }
+  earth.parameters.emplace_back(drag_name);
+  scene.variables.push_back(scene.nominal.size());
+  scene.nominal.push_back(earth.drag_m2_kg);
+  scene.coordinates = {};
+  return scene;
+}
+
+std::vector<double> deputy_parameters(const Scene& scene) {
+  std::vector<double> differences;
+  if (!scene.system.earth) return differences;
+  for (const std::string& name : scene.system.earth->parameters) {
+    const bool is_own = name == drag_name && differs(scene);
+    differences.push_back(is_own ? *scene.deputy->drag_m2_kg - scene.system.earth->drag_m2_kg : 0);
+  }
+  return differences;
+}
+
+std::vector<double> deputy_deviation(const Scene& scene) {
+  std::vector<double> deviation =
+      ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
+          .deviation(scene.deputy->start);
+  for (const double difference : deputy_parameters(scene)) deviation.push_back(difference);
+  return deviation;
 }
 
 const IntegratorSettings& symplectic_integrator(const Scene& scene) {

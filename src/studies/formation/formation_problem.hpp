@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "hamjet/studies/scene.hpp"
 
@@ -9,6 +10,21 @@ namespace hamjet {
 /// Throws Error(scene) unless a study of formation flight can be made on the scene: it needs the
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table);
+
+/// Throws Error(scene) if the deputy has another C_D A / m than the chief, or if jets are expanded
+/// in a parameter: this study has polynomials about one kind of spacecraft.
+void require_one_spacecraft(const Scene& scene, std::string_view table);
+
+/// The scene whose states end with the parameters in which the deputy differs from the chief, and
+/// whose jets are expanded in them; the scene itself where there are none.
+Scene with_deputy_parameters(Scene scene);
+
+/// The deputy's parameters less the chief's, for a scene of with_deputy_parameters.
+std::vector<double> deputy_parameters(const Scene& scene);
+
+/// The deputy's deviation (dq, dp) from the chief at the start, canonical, and that of its
+/// parameters, for a scene of with_deputy_parameters.
+std::vector<double> deputy_deviation(const Scene& scene);
 
 /// The scene's first integrator that is symplectic in (q, p), as generating functions require.
 const IntegratorSettings& symplectic_integrator(const Scene& scene);

@@ -69,6 +69,7 @@ double TransferAnswer::total_change_m_s() const {
 TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
                               const EarlierJet* earlier) {
   require_formation_problem(asked, asked.transfer.has_value(), "transfer");
+  require_one_spacecraft(asked, "transfer");
   Scene scene = asked;
   if (earlier != nullptr) {
     scene.order = earlier->jet.at(0).order();

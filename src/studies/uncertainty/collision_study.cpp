@@ -239,6 +239,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
                                 const ProgressCallback& progress) {
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->collision;
   require_formation_problem(scene, is_asked_for, "uncertainty.collision");
+  require_one_spacecraft(scene, "uncertainty.collision");
   CollisionResult result;
   const auto began = std::chrono::steady_clock::now();
   result.watch = *scene.uncertainty->collision;

@@ -83,6 +83,7 @@ SafetyResult study_safety(const Scene& scene, std::size_t threads,
                           const ProgressCallback& progress) {
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->safety;
   require_formation_problem(scene, is_asked_for, "uncertainty.safety");
+  require_one_spacecraft(scene, "uncertainty.safety");
   SafetyResult result;
   {
     const Stopwatch watch(result.seconds);

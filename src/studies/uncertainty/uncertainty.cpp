@@ -256,6 +256,7 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
 UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress,
                                     std::size_t threads) {
   require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
+  require_one_spacecraft(scene, "uncertainty");
   require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
   UncertaintyResult result;

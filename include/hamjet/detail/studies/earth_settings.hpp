@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "hamjet/detail/studies/fields.hpp"
 
@@ -9,6 +11,16 @@ namespace hamjet {
 
 class EarthOrientation;
 class SphericalHarmonicCoefficients;
+
+/// C_D where a scene gives none: of a compact body in free molecular flow.
+inline constexpr double usual_drag_coefficient = 2.2;
+
+/// The air of the model `earth`, see TurningAtmosphere.
+struct AtmosphereSettings {
+  std::string model = "harris-priester";  ///< or "exponential", which has no bulge
+  double density_factor = 1;              ///< of all densities
+  int bulge_exponent = 4;                 ///< 2 for low inclinations to 6 for polar orbits
+};
 
 /// The model `earth`: the forces that act, and when and how the Earth stands.
 struct EarthSettings {
@@ -19,10 +31,14 @@ struct EarthSettings {
   bool has_moon = true;
   double mu_sun_km3_s2 = 132712440041.27942;  ///< of DE440 (Park et al., Astron. J. 161:105, 2021)
   double mu_moon_km3_s2 = 4902.800118;        ///< likewise
-  std::string epoch_tt;          ///< the moment at which the scene's clock is 0, ISO 8601 in TT
-  std::string orientation_file;  ///< as in the scene; empty without one
-  std::string orientation_checksum;                     ///< of the file's content
+  std::string epoch_tt;              ///< the moment at which the scene's clock is 0, ISO 8601 in TT
+  std::string orientation_file;      ///< as in the scene; empty without one
+  std::string orientation_checksum;  ///< of the file's content
   std::shared_ptr<const EarthOrientation> orientation;  ///< null without a file
+  std::optional<AtmosphereSettings> atmosphere;         ///< absent if there is no drag
+  double drag_m2_kg = 0;                                ///< C_D A / m of the chief
+  /// Names of the parameters with which states end, see earth_parameters.
+  std::vector<std::string> parameters;
   /// The axes in which the scene gives its orbits; all are flown along those of GCRF.
   std::string axes = "GCRF";
   /// The span in which the scene flies, in seconds from the epoch.
@@ -30,8 +46,9 @@ struct EarthSettings {
   double last_s = 0;
 };
 
-HAMJET_FIELDS(EarthSettings, degree, order, field, has_sun, has_moon, mu_sun_km3_s2,
-              mu_moon_km3_s2, epoch_tt, orientation_file, orientation_checksum, orientation, axes,
-              first_s, last_s)
+HAMJET_FIELDS(AtmosphereSettings, model, density_factor, bulge_exponent)
+HAMJET_FIELDS(EarthSettings, degree, order, field, has_sun, has_moon, mu_sun_km3_s2, mu_moon_km3_s2,
+              epoch_tt, orientation_file, orientation_checksum, orientation, atmosphere, drag_m2_kg,
+              parameters, axes, first_s, last_s)
 
 }  // namespace hamjet

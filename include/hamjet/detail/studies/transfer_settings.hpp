@@ -15,6 +15,7 @@ namespace hamjet {
 struct DeputySettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of the state, and of its motion
   RelativeState start;
+  std::optional<double> drag_m2_kg = {};  ///< C_D A / m; the chief's if absent
 };
 
 /// A deputy at its arrival, relative to the chief at that time: a state along the axes of the

@@ -266,6 +266,7 @@ std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
 
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");
+  require_one_spacecraft(scene, "validity");
   if (scene.coordinates != JetCoordinates::automatic) {
     ValidityResult result = ValidityStudy(scene, progress).run(scene.coordinates);
     result.checks = checks_of_chief(scene);
@@ -280,6 +281,7 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
 
 ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.validity.has_value(), "validity");
+  require_one_spacecraft(scene, "validity");
   ValidityInCoordinates all;
   for (const JetCoordinates coordinates : measured_coordinates) {
     try {
