@@ -78,6 +78,12 @@ Json system_json(const SystemSettings& system) {
         {"moon_mu_km3_s2", earth->has_moon ? Json(earth->mu_moon_km3_s2) : Json(nullptr)},
         {"epoch_tt", earth->epoch_tt},
         {"orientation_file", text_or_null(earth->orientation_file)},
+        {"atmosphere", earth->atmosphere ? Json(earth->atmosphere->model) : Json(nullptr)},
+        {"density_factor",
+         earth->atmosphere ? Json(earth->atmosphere->density_factor) : Json(nullptr)},
+        {"bulge_exponent",
+         earth->atmosphere ? Json(earth->atmosphere->bulge_exponent) : Json(nullptr)},
+        {"drag_m2_kg", earth->atmosphere ? Json(earth->drag_m2_kg) : Json(nullptr)},
         {"axes", earth->axes}};
   }
   return json;
