@@ -11,7 +11,7 @@
 namespace hamjet {
 namespace {
 
-using Vector = std::array<Extended, 3>;
+using Vector3 = std::array<Extended, 3>;
 
 constexpr double earth_mu = 398600.4405;
 /// The tolerance is a few units in the last place of 113 bits.
@@ -19,9 +19,9 @@ const Extended round_off = Extended(1e-32);
 
 Extended pi() { return boost::math::constants::pi<Extended>(); }
 
-Extended dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Extended dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vector cross(const Vector& a, const Vector& b) {
+Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -109,20 +109,20 @@ TEST(StateFromElements, HasTheIntegralsOfItsElements) {
   const Extended a = elements.semi_major_axis_km;
   const Extended e = elements.eccentricity;
   const CartesianState state = state_from_elements(elements, earth_mu);
-  const Vector& r = state.position_km;
-  const Vector& v = state.velocity_km_s;
+  const Vector3& r = state.position_km;
+  const Vector3& v = state.velocity_km_s;
   const Extended distance = sqrt(dot(r, r));
   expect_close((dot(v, v) / 2 - mu / distance) * 2 * a / mu, -1, 100 * round_off);
 
   const Extended size = sqrt(mu * a * (1 - e * e));
-  const Vector momentum = cross(r, v);
+  const Vector3 momentum = cross(r, v);
   const SineCosine node = sine_cosine_of_degrees(elements.ascending_node_deg);
   const SineCosine inclination = sine_cosine_of_degrees(elements.inclination_deg);
   expect_close(momentum[0] / size, node.sine * inclination.sine, 100 * round_off);
   expect_close(momentum[1] / size, -node.cosine * inclination.sine, 100 * round_off);
   expect_close(momentum[2] / size, inclination.cosine, 100 * round_off);
 
-  Vector eccentricity = cross(v, momentum);
+  Vector3 eccentricity = cross(v, momentum);
   for (std::size_t i = 0; i < 3; ++i) eccentricity[i] = eccentricity[i] / mu - r[i] / distance;
   expect_close(dot(eccentricity, eccentricity), e * e, 100 * round_off);
   const SineCosine anomaly = sine_cosine_of_degrees(elements.true_anomaly_deg);

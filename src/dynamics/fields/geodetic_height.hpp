@@ -47,8 +47,8 @@ Pack<double, Lanes> foot_in_double(const Pack<double, Lanes>& p2, const Pack<dou
     k += step;
   }
   for (int lane = 0; lane < Lanes; ++lane) {
-    const double above_centre = k.lane(lane) + b2.lane(lane);
-    if (!(above_centre > 0) || !(std::abs(step.lane(lane)) <= 0x1p-40 * above_centre)) {
+    // Beyond the centre k + b^2 is negative.
+    if (!(std::abs(step.lane(lane)) <= 0x1p-40 * (k.lane(lane) + b2.lane(lane)))) {
       k.set_lane(lane, std::numeric_limits<double>::quiet_NaN());
     }
   }

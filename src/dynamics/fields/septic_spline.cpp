@@ -40,25 +40,19 @@ struct HermiteBasis {
   Weights at_far{};   // Coefficients of L_j(1 - t).
 };
 
-SplineNumber power(const SplineNumber& x, int exponent) {
-  SplineNumber result = 1;
-  for (int i = 0; i < exponent; ++i) result *= x;
-  return result;
-}
-
 /// What c_j = s^(j) / j!, j < 4, of one end of an interval gives to s^(k) / k! at one of its ends:
 /// at the same (near) or at the other one. `to_next` is the width, taken negative at the right end.
 class Interval {
  public:
-  explicit Interval(const SplineNumber& to_next) : to_next_(to_next) {}
-
-  SplineNumber near(int j, int k) const {
-    return weight(basis().at_near, j, k) * power(to_next_, j) / power(to_next_, k);
+  explicit Interval(const SplineNumber& to_next) {
+    powers_[0] = 1;
+    for (std::size_t n = 1; n < 8; ++n) powers_[n] = powers_[n - 1] / to_next;
   }
+
+  SplineNumber near(int j, int k) const { return weight(basis().at_near, j, k); }
+  /// Seen from here the other end's d has the opposite direction.
   SplineNumber far(int j, int k) const {
-    // Seen from here the other end's d has the opposite direction.
-    return (j % 2 == 0 ? 1 : -1) * weight(basis().at_far, j, k) * power(to_next_, j) /
-           power(to_next_, k);
+    return (j % 2 == 0 ? 1 : -1) * weight(basis().at_far, j, k);
   }
 
  private:
@@ -66,11 +60,12 @@ class Interval {
     static const HermiteBasis instance;
     return instance;
   }
-  static const SplineNumber& weight(const Weights& weights, int j, int k) {
-    return weights[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)];
+  SplineNumber weight(const Weights& weights, int j, int k) const {
+    return weights[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] *
+           powers_[static_cast<std::size_t>(k - j)];
   }
 
-  SplineNumber to_next_;
+  std::array<SplineNumber, 8> powers_;  // Of 1 / to_next.
 };
 
 /// The conditions on c_1 to c_3 of a node and its neighbours: before * c_before + here * c + after
@@ -82,15 +77,17 @@ struct Conditions {
   Column right = Column::Zero();
 };
 
-/// Adds sign * s^(4+row) / (4+row)! of an interval beside a node. `beyond` is the block of its
-/// other end.
-void add_derivative(const Interval& interval, int sign, const SplineNumber& value,
-                    const SplineNumber& value_beyond, int row, Conditions& at, Block& beyond) {
-  const int k = 4 + row;
-  at.right(row) -= sign * (interval.near(0, k) * value + interval.far(0, k) * value_beyond);
-  for (int j = 1; j < 4; ++j) {
-    at.here(row, j - 1) += sign * interval.near(j, k);
-    beyond(row, j - 1) += sign * interval.far(j, k);
+/// Adds sign * s^(4+row) / (4+row)!, of so many rows, of an interval beside a node. `beyond` is the
+/// block of its other end.
+void add_derivatives(const Interval& interval, int sign, const SplineNumber& value,
+                     const SplineNumber& value_beyond, int rows, Conditions& at, Block& beyond) {
+  for (int row = 0; row < rows; ++row) {
+    const int k = 4 + row;
+    at.right(row) -= sign * (interval.near(0, k) * value + interval.far(0, k) * value_beyond);
+    for (int j = 1; j < 4; ++j) {
+      at.here(row, j - 1) += sign * interval.near(j, k);
+      beyond(row, j - 1) += sign * interval.far(j, k);
+    }
   }
 }
 
@@ -105,15 +102,14 @@ std::vector<std::array<SplineNumber, 8>> septic_spline(const std::vector<SplineN
     Conditions& c = at[i];
     const bool is_end = i == 0 || i == last;
     // At an end s'' = s''' = 0 and one derivative of the only interval vanishes.
-    for (int row = 0; row < (is_end ? 1 : 3); ++row) {
-      if (i > 0) {
-        add_derivative(Interval(nodes[i - 1] - nodes[i]), -1, values[i], values[i - 1], row, c,
-                       c.before);
-      }
-      if (i < last) {
-        add_derivative(Interval(nodes[i + 1] - nodes[i]), 1, values[i], values[i + 1], row, c,
-                       c.after);
-      }
+    const int rows = is_end ? 1 : 3;
+    if (i > 0) {
+      add_derivatives(Interval(nodes[i - 1] - nodes[i]), -1, values[i], values[i - 1], rows, c,
+                      c.before);
+    }
+    if (i < last) {
+      add_derivatives(Interval(nodes[i + 1] - nodes[i]), 1, values[i], values[i + 1], rows, c,
+                      c.after);
     }
     if (is_end) c.here(1, 1) = c.here(2, 2) = 1;
     if (i > 0) {
