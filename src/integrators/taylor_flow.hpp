@@ -46,8 +46,10 @@ class TaylorFlow {
   int powers(std::size_t lane) const { return powers_[lane]; }
   /// A lane's unit of time, a power of two.
   double unit(std::size_t lane) const { return units_.lane(static_cast<int>(lane)); }
-  /// The coefficient of a lane's component at a power of the time in that unit.
+  /// The coefficient of a lane's component at a power of the time in that unit; 0 for those above
+  /// the power to which the last expansion of the lane went.
   double coefficient(std::size_t lane, std::size_t component, int power) const {
+    if (power > powers_[lane]) return 0;
     return field_.input(component)[power].lane(static_cast<int>(lane));
   }
   /// The time, forwards and backwards, within which a lane's polynomial leaves out no more than
