@@ -18,13 +18,13 @@
 namespace hamjet {
 namespace {
 
-using Vector3 = std::array<double, 3>;
+using Triple = std::array<double, 3>;
 
 constexpr double rate = 0.06;  // of the axes and of the air, in canonical units
 constexpr double tilt = 0.3;   // of the axis, so that no component of it vanishes
 constexpr double lag = 0.5;
 
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 DensityTable table(double factor, double slope) {
   DensityTable result;
@@ -45,7 +45,7 @@ TurningAtmosphere bulging() {
   TurningAtmosphere air;
   air.least = density(2, 1.1);
   air.greatest = density(3, 0.8);
-  air.sun = std::make_shared<const test::MovingPoint>(Vector3{200, 90, 40}, Vector3{-0.5, 2, 0.3});
+  air.sun = std::make_shared<const test::MovingPoint>(Triple{200, 90, 40}, Triple{-0.5, 2, 0.3});
   air.lag = lag;
   air.exponent = 4;
   air.rate = rate;
@@ -83,17 +83,17 @@ TEST(SpacecraftForces, DragIsThatOfItsFormula) {
   const double time = 1.7;
   const double ballistic = 0.03;
   const std::vector<double> state = {0.8, -0.5, 0.43, 0.3, 0.7, -0.6, ballistic};
-  const Vector3 q = {state[0], state[1], state[2]};
+  const Triple q = {state[0], state[1], state[2]};
   // The air's axis, by hand: the z axis turned by the tilt about x.
-  const Vector3 axis = {0, -std::sin(tilt), std::cos(tilt)};
-  const Vector3 v = {state[3] - rate * (axis[1] * q[2] - axis[2] * q[1]),
+  const Triple axis = {0, -std::sin(tilt), std::cos(tilt)};
+  const Triple v = {state[3] - rate * (axis[1] * q[2] - axis[2] * q[1]),
                      state[4] - rate * (axis[2] * q[0] - axis[0] * q[2]),
                      state[5] - rate * (axis[0] * q[1] - axis[1] * q[0])};
-  const Vector3 sun = {200 - 0.5 * time, 90 + 2 * time, 40 + 0.3 * time};
-  const Vector3 apex = {std::cos(lag) * sun[0] - std::sin(lag) * sun[1],
+  const Triple sun = {200 - 0.5 * time, 90 + 2 * time, 40 + 0.3 * time};
+  const Triple apex = {std::cos(lag) * sun[0] - std::sin(lag) * sun[1],
                         std::sin(lag) * sun[0] + std::cos(lag) * sun[1], sun[2]};
-  const double radius = std::sqrt(dot(q, q));
-  const double cosine = dot(q, apex) / radius / std::sqrt(dot(apex, apex));
+  const double radius = std::sqrt(inner(q, q));
+  const double cosine = inner(q, apex) / radius / std::sqrt(inner(apex, apex));
   // cos^4(psi / 2) by the angle itself.
   const double bulge = std::pow(std::cos(std::acos(cosine) / 2), 4);
   // A table that falls by one ratio from node to node is an exponential between them too.
@@ -101,7 +101,7 @@ TEST(SpacecraftForces, DragIsThatOfItsFormula) {
   const double least = 2 * std::exp(-1.1 * (height - 100) / 50);
   const double greatest = 3 * std::exp(-0.8 * (height - 100) / 50);
   const double rho = 1.5 * (least + (greatest - least) * bulge);
-  const double speed = std::sqrt(dot(v, v));
+  const double speed = std::sqrt(inner(v, v));
   const std::vector<double> with = rates(braked, state, time);
   const std::vector<double> without = rates(alone, state, time);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -116,10 +116,10 @@ TEST(SpacecraftForces, DragIsThatOfItsFormula) {
 TEST(SpacecraftForces, RadiationPushesAwayFromTheSun) {
   GravityOfTurningBody body = gravity(1);
   const DynamicalSystem alone = earth_gravity(body);
-  const Vector3 sun = {20, 9, 4};
+  const Triple sun = {20, 9, 4};
   RadiationPressure radiation;
   radiation.potential = std::make_shared<const PointMassField>(0.25);
-  radiation.sun = std::make_shared<const test::MovingPoint>(sun, Vector3{});
+  radiation.sun = std::make_shared<const test::MovingPoint>(sun, Triple{});
   radiation.coefficient = {0, 0};
   body.radiation = radiation;
   const DynamicalSystem lit = earth_gravity(body);
@@ -127,8 +127,8 @@ TEST(SpacecraftForces, RadiationPushesAwayFromTheSun) {
   const std::vector<double> state = {0.8, -0.5, 0.43, 0.3, 0.7, -0.6, 0.02};
   const std::vector<double> with = rates(lit, state, 0.4);
   const std::vector<double> without = rates(alone, state, 0.4);
-  const Vector3 d = {state[0] - sun[0], state[1] - sun[1], state[2] - sun[2]};
-  const double cube = std::pow(dot(d, d), 1.5);
+  const Triple d = {state[0] - sun[0], state[1] - sun[1], state[2] - sun[2]};
+  const double cube = std::pow(inner(d, d), 1.5);
   for (std::size_t i = 0; i < 3; ++i) {
     // Subtracting the gravity of the body, of size 1, leaves its rounding.
     EXPECT_NEAR(with[3 + i] - without[3 + i], 0.02 * 0.25 * d[i] / cube, 1e-15) << i;
