@@ -200,7 +200,7 @@ def print_growth(runner: Runner, folder: Path, picture: str | None) -> None:
 def draw(curves: list[tuple[str, list[tuple[float, float]]]], picture: str) -> None:
     lines = ["set terminal pngcairo size 900,560 font ',11'", f"set output '{picture}'",
              "set logscale xy", "set xlabel 'count'", "set ylabel 'processor time (s)'",
-             "set grid", "set key left top"]
+             "set grid", "set key below"]
     for i, (_, points) in enumerate(curves):
         rows = "\n".join(f"{n} {s}" for n, s in points if s == s)
         lines.append(f"$c{i} << EOD\n{rows}\nEOD")
