@@ -163,6 +163,38 @@ samples = 43
             scene.validity->tolerance_m);
 }
 
+// The differences are of the misses of whole flights.
+TEST(Validity, GradientsOfMissesAreTheirDifferences) {
+  Scene scene = scene_of(2, 1);
+  const double time = 9;
+  const ComputedProblem problem = make_problem(scene);
+  const Matrix6 axes = ellipsoid_axes(problem.nominal, scene.validity->frame,
+                                      scene.validity->semi_axes, momentum_per_length(scene));
+  Vector6 direction;
+  direction << 0.36, 0.6, -0.72, 0.6, 0.3, -0.75;
+  const Vector6 deputy = 5e-4 * direction;
+  const double step = 5e-7;
+  for (const JetCoordinates kind : {JetCoordinates::cartesian, JetCoordinates::nodal}) {
+    DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], {kind, kind});
+    const std::unique_ptr<DeputyFlow> flow = propagation.advance_to(time);
+    FlownDeputies deputies(problem, axes, time, *flow, [] {});
+    for (const int order : {1, 2}) {
+      Vector6 differences;
+      for (Eigen::Index i = 0; i < 6; ++i) {
+        const Vector6 change = step * Vector6::Unit(i);
+        differences[i] =
+            (deputies.miss(deputy + change, order) - deputies.miss(deputy - change, order)) /
+            (2 * step);
+      }
+      const Vector6 gradient = deputies.gradient(deputy, order, step);
+      EXPECT_LT((gradient - differences).norm(), 1e-4 * differences.norm())
+          << static_cast<int>(kind) << ' ' << order << '\n'
+          << gradient.transpose() << '\n'
+          << differences.transpose();
+    }
+  }
+}
+
 TEST(Validity, AFlatEllipsoidReachesAtLeastAsFarAsTheBall) {
   Scene scene = scene_of(2, 1);
   const ValidityResult ball = study_validity(scene);

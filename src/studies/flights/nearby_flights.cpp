@@ -1,6 +1,7 @@
 #include "nearby_flights.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "../../integrators/gauss/gauss_tolerance.hpp"
 #include "../exact_flow.hpp"
@@ -33,6 +34,21 @@ std::vector<double> NearbyFlights::end(const std::vector<double>& start,
   step_tolerance_ = statistics.step_tolerance;
   tried_ = std::abs(duration);
   return nominal_of(jet);
+}
+
+FlowJet<double> NearbyFlights::linear_end(const std::vector<double>& start,
+                                          const ClockTime& start_time, double duration) {
+  if (!step_tolerance_ || std::abs(duration) > tried_) try_tolerance(start, start_time, duration);
+  std::vector<std::size_t> variables(start.size());
+  std::iota(variables.begin(), variables.end(), std::size_t{0});
+  FlowProblem<double> problem{
+      system_, SeriesSpace::create(start.size(), 1), variables, start, start_time, duration};
+  problem.symmetry = FlowSymmetry::none;
+  validate(problem);
+  const GaussSettings settings = exact_gauss();
+  IntegrationStatistics statistics;
+  return integrate_with_step_tolerance(problem, settings,
+                                       step_tolerance_.value_or(*settings.tolerance), statistics);
 }
 
 }  // namespace hamjet

@@ -6,6 +6,7 @@
 
 #include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {
 
@@ -24,6 +25,11 @@ class NearbyFlights {
   /// As exact_flow.
   std::vector<double> end(const std::vector<double>& start, const ClockTime& start_time,
                           double duration);
+
+  /// The flow about the flight of a state to first order in all of its coordinates, with the steps
+  /// that suit the flight itself.
+  FlowJet<double> linear_end(const std::vector<double>& start, const ClockTime& start_time,
+                             double duration);
 
  private:
   SharedSystem system_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
+#include "../../exact_flow.hpp"
 #include "../../random_direction.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/error.hpp"
@@ -53,25 +55,33 @@ SixNumbers<double> FlownDeputies::deviation(const Vector6& coordinates) const {
   return {z[0], z[1], z[2], z[3], z[4], z[5]};
 }
 
-Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
-  if (before_flight_) before_flight_();
-  const SixNumbers<double> start = deviation(coordinates);
+std::vector<double> FlownDeputies::state(const SixNumbers<double>& deviation) const {
   std::vector<double> deputy = problem_.nominal;
-  for (std::size_t i = 0; i < start.size(); ++i) deputy[i] += start[i];
-  std::vector<double> flown;
-  try {
-    flown = flights_.end(deputy, problem_.start_time, time_);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerical) throw;
-    return Vector6::Constant(std::numeric_limits<double>::infinity());
-  }
-  const SixNumbers<double> predicted = predictor_.predict(start, order).deviation;
+  for (std::size_t i = 0; i < deviation.size(); ++i) deputy[i] += deviation[i];
+  return deputy;
+}
+
+Vector6 FlownDeputies::error_of(std::span<const double> flown,
+                                const SixNumbers<double>& predicted) const {
   Vector6 error;
-  for (std::size_t i = 0; i < start.size(); ++i) {
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
     error[static_cast<Eigen::Index>(i)] =
         predictor_.flow().chief_end()[i] + predicted[i] - flown[i];
   }
   return error;
+}
+
+Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
+  if (before_flight_) before_flight_();
+  const SixNumbers<double> start = deviation(coordinates);
+  std::vector<double> flown;
+  try {
+    flown = flights_.end(state(start), problem_.start_time, time_);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return Vector6::Constant(std::numeric_limits<double>::infinity());
+  }
+  return error_of(flown, predictor_.predict(start, order).deviation);
 }
 
 double FlownDeputies::miss(const Vector6& coordinates, int order) {
@@ -80,11 +90,37 @@ double FlownDeputies::miss(const Vector6& coordinates, int order) {
 }
 
 Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double step) {
-  Vector6 result;
+  if (before_flight_) before_flight_();
+  FlowJet<double> flown;
+  try {
+    flown = flights_.linear_end(state(deviation(coordinates)), problem_.start_time, time_);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return Vector6::Constant(std::numeric_limits<double>::infinity());
+  }
+  // The error is far smaller than what the polynomials and the flight change by, so that the
+  // differences are of fourth order: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h).
+  constexpr double places[] = {1, -1, 2, -2};
+  constexpr double weights[] = {8, -8, -1, 1};
+  std::vector<SixNumbers<double>> starts = {deviation(coordinates)};
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const Vector6 change = step * Vector6::Unit(i);
-    result[i] =
-        (miss(coordinates + change, order) - miss(coordinates - change, order)) / (2 * step);
+    for (const double place : places) {
+      starts.push_back(deviation(coordinates + place * step * Vector6::Unit(i)));
+    }
+  }
+  std::vector<DeputyPrediction> predicted(starts.size());
+  predictor_.predict(starts, order, predicted);
+  const Eigen::Vector3d error = error_of(nominal_of(flown), predicted[0].deviation).head<3>();
+  const double miss = error.norm();
+  if (miss == 0) return Vector6::Zero();
+  Vector6 result = -axes_.transpose() * linear_part(flown).topRows(3).transpose() * error / miss;
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t k = 0; k < std::size(places); ++k) {
+      const SixNumbers<double>& end = predicted[1 + std::size(places) * i + k].deviation;
+      result[static_cast<Eigen::Index>(i)] +=
+          weights[k] / (12 * step) * Eigen::Map<const Eigen::Vector3d>(end.data()).dot(error) /
+          miss;
+    }
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "../../flights/nearby_flights.hpp"
@@ -50,7 +51,9 @@ class FlownDeputies {
   Vector6 error(const Vector6& coordinates, int order);
   /// The distance in position of this difference; infinite if it is not finite.
   double miss(const Vector6& coordinates, int order);
-  /// The derivative of the miss by the coordinates, by differences over `step` to both sides.
+  /// The derivative of the miss by the coordinates: of the flight by its linear flow, which costs
+  /// little more than the flight, and of the polynomials by differences over `step` to both sides.
+  /// Not finite if the deputy cannot be flown or has no place in the coordinates.
   Vector6 gradient(const Vector6& coordinates, int order, double step);
 
   struct Worst {
@@ -64,6 +67,11 @@ class FlownDeputies {
   DeputyPredictor& predictor() { return predictor_; }
 
  private:
+  /// The state of a deputy at the start.
+  std::vector<double> state(const SixNumbers<double>& deviation) const;
+  /// The difference between the polynomials and a flown state.
+  Vector6 error_of(std::span<const double> flown, const SixNumbers<double>& predicted) const;
+
   const ComputedProblem& problem_;
   const Matrix6& axes_;
   double time_;

@@ -87,8 +87,7 @@ LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, con
 
 ReachLimit reach_limit(FlownDeputies& deputies, int order, const Vector6& deputy,
                        const CoordinatesAtEnds& coordinates, const LimitCoordinates& names) {
-  constexpr double step = 0.01;  // step of differences, as a fraction of the separation; large
-                                 // because the miss has rounding errors
+  constexpr double step = 1e-3;  // step of differences, as a fraction of the separation
   const double separation = std::max(deputy.head<3>().norm(), deputy.tail<3>().norm());
   const Vector6 error = deputies.error(deputy, order);
   const Eigen::Vector3d miss = error.head<3>();
