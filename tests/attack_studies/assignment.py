@@ -5,14 +5,13 @@ from scipy.optimize import linear_sum_assignment
 
 import orbit
 from command import Run, number
-from drawing import Scene
 from flight import REAL
 from refusal import results
 from ways import Flights
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.2, source.one_of([1.5, 3])), orders=(2, 3, 4),
+    scene = source.scene(revolutions=(0.2, source.one_of([1.5, 3])), orders=(2, 3, 4),
                   weights=(3, 3, 2))
     table = scene.tables["transfer"] = {}
     scene.transfer_frame = scene.frame(table)

@@ -2,7 +2,7 @@
 """Attacks the studies of hamjet with random scenes: the command is run as a user runs it, and what
 it tells is judged by flights and formulas that share no code with it.
 
-  attack.py COUNT [SEED] [--only STUDY,...] [--scene N] [--folder DIR] [--jobs N]
+  attack.py COUNT [SEED] [--earth] [--only STUDY,...] [--scene N] [--folder DIR] [--jobs N]
 
 Environment: HAMJET_COMMAND, the built command; HAMJET_ATTACK_FLIGHTS, the library of flights.cpp.
 Exit code 1 if an answer is wrong and the program does not say so itself."""
@@ -25,13 +25,15 @@ except ImportError as missing:
     sys.exit(77)
 
 from command import NoNumber, TooSlow
-from drawing import Draw
+from drawing import Draw, Scene
+from earth_scene import EarthScene
 from judgement import Judgement
 
 # Studies by the weight with which they are drawn.
 STUDIES = {"motion": 5, "evaluation": 6, "transfer": 6, "validity": 3, "assignment": 3,
            "moments": 4, "collision": 3, "safety": 2, "event": 3, "poincare": 1, "bounded": 2}
-
+# About the real Earth, whose forces depend on the time.
+STUDIES_OF_EARTH = {"jet": 4, "motion": 4, "transfer": 4, "validity": 2}
 
 OUTCOMES = ("right", "marked", "wrong")
 
@@ -44,7 +46,7 @@ def processor_seconds():
 
 def attack(job):
     """Draws, runs and judges one scene."""
-    study, seed, index, folder = job
+    study, seed, index, folder, scene_type = job
     judgement = Judgement()
     work = os.path.join(folder, f"{index}-{study}")
     os.makedirs(work)
@@ -52,10 +54,13 @@ def attack(job):
     text = ""
     try:
         module = importlib.import_module(study)
-        scene = module.draw(Draw(seed, index))
+        scene = module.draw(Draw(seed, index, scene_type))
         text = scene.text
         with open(os.path.join(work, "scene.toml"), "w") as file:
             file.write(text)
+        for name, content in scene.files.items():
+            with open(os.path.join(work, name), "w") as file:
+                file.write(content)
         module.judge(judgement, scene, work)
     except TooSlow as slow:
         judgement.mark("too slow to judge: " + str(slow))
@@ -77,7 +82,8 @@ def studies_of(arguments):
     """The study of every scene, the same for a seed whatever is left out."""
     generator = np.random.default_rng([arguments.seed, 2 ** 31])
     # Every study comes in turn, as often as its weight says.
-    cycle = [name for name in STUDIES for _ in range(STUDIES[name])]
+    studies = STUDIES_OF_EARTH if arguments.earth else STUDIES
+    cycle = [name for name in studies for _ in range(studies[name])]
     order = []
     while len(order) < arguments.count:
         generator.shuffle(cycle)
@@ -90,6 +96,7 @@ def main():
     parser.add_argument("count", type=int, nargs="?", default=200)
     parser.add_argument("seed", type=int, nargs="?",
                         default=int.from_bytes(os.urandom(4), "big"))
+    parser.add_argument("--earth", action="store_true", help="scenes about the real Earth")
     parser.add_argument("--only", help="studies, between commas")
     parser.add_argument("--scene", type=int, help="this scene alone")
     parser.add_argument("--folder", help="where scenes that come out wrong are kept")
@@ -100,8 +107,9 @@ def main():
     os.makedirs(folder, exist_ok=True)
     print(f"seed {arguments.seed}, {arguments.count} scenes; wrong ones are kept in {folder}",
           flush=True)
-    wanted = set(arguments.only.split(",")) if arguments.only else set(STUDIES)
-    jobs = [(study, arguments.seed, index, folder)
+    wanted = set(arguments.only.split(",")) if arguments.only else {*STUDIES, *STUDIES_OF_EARTH}
+    scene_type = EarthScene if arguments.earth else Scene
+    jobs = [(study, arguments.seed, index, folder, scene_type)
             for index, study in enumerate(studies_of(arguments))
             if study in wanted and arguments.scene in (None, index)]
     counts = collections.defaultdict(collections.Counter)

@@ -4,13 +4,12 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene
 from flight import REAL, coast_times
 from refusal import results
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.5, 1), orders=(3, 4), weights=(2, 1), largest_e=0.7,
+    scene = source.scene(revolutions=(0.5, 1), orders=(3, 4), weights=(2, 1), largest_e=0.7,
                   coordinates=False, may_go_back=False)
     table = scene.tables["bounded"] = {
         "sizes_km": [source.logarithmic(0.1, 300)], "revolutions": source.one_of([10, 20, 60])}

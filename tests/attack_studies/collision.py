@@ -4,7 +4,7 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene, rounded
+from drawing import rounded
 from flight import REAL
 from refusal import results
 from uncertain import (draw_known, inertial_covariance, judge_quantile, judge_share, samples_of)
@@ -13,7 +13,7 @@ SAMPLES = 1500
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.2, source.one_of([1.5, 3])), orders=(1, 2, 3),
+    scene = source.scene(revolutions=(0.2, source.one_of([1.5, 3])), orders=(1, 2, 3),
                   weights=(1, 4, 2), may_go_back=False, coordinates=False,
                   whole=source.one_of([None, 1.0, 2.0], [5, 1, 2]))
     time = scene.duration * source.one_of([source.uniform(0.05, 0.98), 0.5, 1.0], [6, 1, 1])

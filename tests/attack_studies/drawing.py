@@ -21,10 +21,14 @@ def rounded(x, digits=9):
 
 
 class Draw:
-    """Random choices of one scene."""
+    """Random choices of one scene, of the type of `scene`."""
 
-    def __init__(self, seed, index):
+    def __init__(self, seed, index, scene):
         self.generator = np.random.default_rng([seed, index])
+        self._scene = scene
+
+    def scene(self, **settings):
+        return self._scene(self, **settings)
 
     def uniform(self, low, high):
         return rounded(self.generator.uniform(low, high))
@@ -78,18 +82,24 @@ def toml(tables, path=""):
 class Scene:
     """Tables of a scene, and what they mean in SI units."""
 
+    is_earth = False
+    has_elements = True  # orbits may be given by elements
+    coordinates = {"spherical": 1, "cylindrical": 1, "poincare": 1, "nodal": 2, "flow-box": 5,
+                   "auto": 1}
+
     def __init__(self, draw, revolutions=(0.05, 6), orders=(1, 2, 3, 4), weights=(1, 3, 4, 5),
                  largest_e=0.95, may_go_back=True, coordinates=True, whole=None):
         self.draw = draw
         self.tables = {"title": "attack"}
+        self.files = {}
         self._draw_field()
         self._draw_units()
         self._draw_chief(largest_e)
         jet = self.tables["jet"] = {"order": draw.one_of(orders, weights)}
         self._draw_duration(jet, revolutions, may_go_back, whole)
         if coordinates and draw.chance(0.45):
-            jet["coordinates"] = draw.one_of(["spherical", "cylindrical", "poincare", "nodal",
-                                              "flow-box", "auto"], [1, 1, 1, 2, 5, 1])
+            jet["coordinates"] = draw.one_of(list(self.coordinates),
+                                             list(self.coordinates.values()))
 
     def _draw_field(self):
         draw = self.draw
@@ -114,7 +124,16 @@ class Scene:
             self.tables["units"] = {"length_km": length}
             self.length = REAL(length) * 1000
 
-    def _draw_chief(self, largest_e):
+    def given(self, state):
+        """A state, in the axes in which the scene gives orbits."""
+        return state
+
+    def meant(self, given):
+        """The state that a scene gives."""
+        return given
+
+    def _draw_shape(self, largest_e):
+        """a (km), e and i (degrees)."""
         draw = self.draw
         radius = float(self.radius) / 1000
         kind = draw.one_of(["circle", "low", "middle", "high", "highest"], [2, 8, 6, 4, 3])
@@ -127,14 +146,24 @@ class Scene:
         i = draw.uniform(3, 177)
         if draw.chance(0.15):
             i = draw.one_of([90.0, 63.4349488229, 116.565, 28.5, 0.01, 97.4, 0.0, 180.0])
+        return a, e, i
+
+    def _draw_form(self):
+        form = self.draw.one_of(["elements", "period", "heights", "state"], [5, 1, 1, 3])
+        if form == "heights" and "radius_km" not in self.tables["system"]:
+            form = "elements"
+        return form
+
+    def _draw_chief(self, largest_e):
+        draw = self.draw
+        radius = float(self.radius) / 1000
+        a, e, i = self._draw_shape(largest_e)
         node, w, place = draw.uniform(-180, 180), draw.uniform(-180, 180), draw.uniform(-180, 180)
         if draw.chance(0.2):
             place = draw.one_of([0.0, 180.0, 90.0])
         self.e, self.i = REAL(e), orbit.degrees(i)
         self.has_node = 0 < i < 180
-        form = draw.one_of(["elements", "period", "heights", "state"], [5, 1, 1, 3])
-        if form == "heights" and "radius_km" not in self.tables["system"]:
-            form = "elements"
+        form = self._draw_form()
         nominal = {}
         if form == "period":
             nominal["period_s"] = rounded(2 * math.pi * math.sqrt((a * 1e3) ** 3 / float(self.mu)))
@@ -163,10 +192,12 @@ class Scene:
         state = orbit.state_of(self.mu, self.a, self.e, self.i, orbit.degrees(node),
                                orbit.degrees(w), angle)
         if form == "state":
+            state = self.given(state)
             nominal = {"position_km": [rounded(x / 1000, 12) for x in state[:3]],
                        "velocity_km_s": [rounded(x / 1000, 12) for x in state[3:]]}
             state = np.array(nominal["position_km"] + nominal["velocity_km_s"], dtype=REAL) * 1000
-        self.tables["nominal"] = nominal
+        state = self.meant(state)
+        self.tables.setdefault("nominal", {}).update(nominal)
         self.chief = state
         self.period = self.field.period(state)
         self.rate = 2 * orbit.PI / self.period
@@ -231,21 +262,23 @@ class Scene:
             return chief + orbit.from_frame(chief, state, *frame)
         near = chief + np.array(draw.vector(distance) + draw.vector(distance * rate / 2),
                                 dtype=REAL)
-        if kind == "own-state":
+        if kind == "own-state" or (kind == "own-elements" and not self.has_elements):
+            near = self.given(near)
             table["position_km"] = [rounded(x / 1000, 15) for x in near[:3]]
             table["velocity_km_s"] = [rounded(x / 1000, 15) for x in near[3:]]
-            return np.array(table["position_km"] + table["velocity_km_s"], dtype=REAL) * 1000
+            return self.meant(np.array(table["position_km"] + table["velocity_km_s"], dtype=REAL)
+                              * 1000)
         if kind == "own-elements":
-            k = orbit.elements_of(self.mu, near)
+            k = orbit.elements_of(self.mu, self.given(near))
             e, w = np.hypot(k["q1"], k["q2"]), np.arctan2(k["q2"], k["q1"])
             turn = 180 / orbit.PI
             table.update(a_km=rounded(k["a"] / 1000, 14), e=rounded(e, 13),
                          i_deg=rounded(k["i"] * turn, 14), raan_deg=rounded(k["node"] * turn, 14),
                          argp_deg=rounded(w * turn, 14),
                          ta_deg=rounded(orbit.wrapped(k["theta"] - w) * turn, 14))
-            return orbit.state_of(self.mu, REAL(table["a_km"]) * 1000, table["e"],
-                                  *(orbit.degrees(table[key]) for key in
-                                    ("i_deg", "raan_deg", "argp_deg", "ta_deg")))
+            return self.meant(orbit.state_of(self.mu, REAL(table["a_km"]) * 1000, table["e"],
+                                             *(orbit.degrees(table[key]) for key in
+                                               ("i_deg", "raan_deg", "argp_deg", "ta_deg"))))
         numbers = [rounded(x) for x in orbit.to_form(self.mu, chief, near, kind)]
         if kind == "relative-elements" and draw.chance(0.5):
             numbers[0] = 0.0

@@ -6,7 +6,7 @@ import numpy as np
 
 import orbit
 from command import Refused, Run, number
-from drawing import Scene, rounded
+from drawing import rounded
 from flight import REAL, TOLERANCE
 from refusal import judge_refusal
 
@@ -24,7 +24,7 @@ def columns_of(frame):
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.05, source.one_of([2, 4, 10])))
+    scene = source.scene(revolutions=(0.05, source.one_of([2, 4, 10])))
     if source.chance(0.3) and "coordinates" in scene.tables["jet"]:
         ends = source.one_of(["cartesian", "spherical", "cylindrical", "poincare", "nodal"])
         if scene.tables["jet"]["coordinates"] not in ("flow-box", "auto"):

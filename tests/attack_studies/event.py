@@ -7,13 +7,12 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene
 from flight import REAL, coast_times
 from refusal import results
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.3, source.one_of([2, 5])), orders=(1, 2, 3, 4),
+    scene = source.scene(revolutions=(0.3, source.one_of([2, 5])), orders=(1, 2, 3, 4),
                   weights=(1, 3, 3, 2), coordinates=False)
     event = scene.tables["event"] = {
         "surface": source.one_of(["equator", "plane", "distance", "apsis"])}

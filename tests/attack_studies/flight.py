@@ -12,18 +12,24 @@ PAIR_TOLERANCE = REAL(1e-13)  # of thousands of pairs, whose separations are wan
 def _library():
     library = ctypes.CDLL(os.environ["HAMJET_ATTACK_FLIGHTS"])
     whole, pointer = ctypes.c_int, ctypes.c_void_p
-    library.fly.argtypes = [whole, pointer, pointer, whole, pointer, whole, pointer, pointer,
-                            pointer]
-    library.least_separations.argtypes = [whole, pointer, pointer, pointer, whole, pointer, pointer,
-                                          whole, pointer, pointer, pointer]
+    field = [pointer, whole, pointer, pointer, pointer]
+    library.fly.argtypes = [whole, pointer, *field, whole, pointer, pointer, pointer]
+    library.least_separations.argtypes = [whole, pointer, pointer, *field, pointer, whole, pointer,
+                                          pointer, pointer]
+    library.make_earth.argtypes = [whole, pointer, pointer, pointer, pointer, whole, pointer]
+    library.make_earth.restype = pointer
+    library.delete_earth.argtypes = [pointer]
+    library.axes_of_earth.argtypes = [pointer, whole, pointer, pointer]
+    library.tai_minus_utc.argtypes = [whole, whole, whole, pointer]
+    library.tai_minus_utc.restype = ctypes.c_double
     return library
 
 
-def _address(numbers):
+def address(numbers):
     return numbers.ctypes.data
 
 
-_LIBRARY = _library()
+LIBRARY = _library()
 
 
 class FlightFailed(Exception):
@@ -31,32 +37,37 @@ class FlightFailed(Exception):
 
 
 class Field:
-    """A centre with zonal harmonics: mu in m^3/s^2, the radius in m, J_n at index n."""
+    """A centre with zonal harmonics: mu in m^3/s^2, the radius in m, J_n at index n. Starts of its
+    flights may have a time, `begin`, from which times are counted; for this field it is nothing."""
+
+    _earth = None
 
     def __init__(self, mu, radius=0, zonals=()):
         self.mu, self.radius = REAL(mu), REAL(radius)
         self.zonals = np.array(list(zonals) or [0], dtype=REAL)
         self._centre = np.array([self.mu, self.radius], dtype=REAL)
 
-    def _arguments(self):
-        return _address(self._centre), len(self.zonals) - 1, _address(self.zonals)
+    def _arguments(self, begin):
+        return (address(self._centre), len(self.zonals) - 1, address(self.zonals), self._earth,
+                address(begin))
 
-    def fly(self, starts, times, tolerance=TOLERANCE):
+    def fly(self, starts, times, tolerance=TOLERANCE, begin=0):
         """States [..., time, 6] of starts [..., 6] at times that move away from 0 (0 may be the
         first)."""
+        begin = np.array([begin], dtype=REAL)
         starts = np.ascontiguousarray(starts, dtype=REAL)
         times = np.ascontiguousarray(np.atleast_1d(times), dtype=REAL)
         many = starts.reshape(-1, 6)
         out = np.empty((len(many), len(times), 6), dtype=REAL)
         tolerance = np.array([tolerance], dtype=REAL)
-        if _LIBRARY.fly(len(many), _address(many), *self._arguments(), len(times),
-                        _address(times), _address(tolerance), _address(out)):
+        if LIBRARY.fly(len(many), address(many), *self._arguments(begin), len(times),
+                       address(times), address(tolerance), address(out)):
             raise FlightFailed()
         return out.reshape(starts.shape[:-1] + (len(times), 6))
 
-    def to(self, starts, time, tolerance=TOLERANCE):
+    def to(self, starts, time, tolerance=TOLERANCE, begin=0):
         """States at one time, 0 included."""
-        return self.fly(starts, [time], tolerance)[..., 0, :]
+        return self.fly(starts, [time], tolerance, begin)[..., 0, :]
 
     def least_separations(self, first, second, start, end, looks=9, tolerance=PAIR_TOLERANCE):
         """Least separations of pairs within times after their states, and when."""
@@ -65,9 +76,10 @@ class Field:
         count = second.reshape(-1, 6).shape[0]
         separations, times = np.empty(count, dtype=REAL), np.empty(count, dtype=REAL)
         window, tolerance = np.array([start, end], dtype=REAL), np.array([tolerance], dtype=REAL)
-        if _LIBRARY.least_separations(count, _address(first), _address(second), *self._arguments(),
-                                      _address(window), looks, _address(tolerance),
-                                      _address(separations), _address(times)):
+        begin = np.zeros(1, dtype=REAL)
+        if LIBRARY.least_separations(count, address(first), address(second),
+                                     *self._arguments(begin), address(window), looks,
+                                     address(tolerance), address(separations), address(times)):
             raise FlightFailed()
         return separations, times
 
@@ -114,7 +126,7 @@ def coast_times(field, state, duration, parts):
         following = now + step
         if (duration - following) * sign < abs(step) * REAL(0.01):
             following = REAL(duration)
-        state = field.to(state, following - now, REAL(1e-10))
+        state = field.to(state, following - now, REAL(1e-10), begin=now)
         now = following
         times.append(now)
     return np.array(times)

@@ -1,15 +1,18 @@
 // Flights for the attack on the studies, in the long double of the machine: an extrapolation of
-// Störmer's rule through a force that is written from Legendre's polynomials. Nothing of hamjet is
-// included here, for these flights are what its answers are compared with.
+// Störmer's rule through a force that is written from Legendre's polynomials, or that of the Earth.
+// Nothing of hamjet is included here, for these flights are what its answers are compared with.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "earth_forces.hpp"
+
 namespace {
 
-using Real = long double;
-using Vector = std::array<Real, 3>;
+using attack::Earth;
+using attack::Real;
+using attack::Vector;
 
 constexpr int most_columns = 12;
 
@@ -18,6 +21,7 @@ struct Field {
   Real radius;
   int highest;         ///< highest zonal degree; below 2 the field is that of a point mass
   const Real* zonals;  ///< J_n at index n
+  Earth* earth;        ///< or null; it takes the place of the zonals
 };
 
 struct State {
@@ -29,7 +33,9 @@ Real dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + 
 
 /// The gradient of U = mu/r (1 - sum J_n (R/r)^n P_n(z/r)): with s = z/r,
 ///   dU/dr = -mu/r^2 (1 - sum (n+1) J_n (R/r)^n P_n),  dU/ds = -mu/r sum J_n (R/r)^n P_n'.
-Vector acceleration(const Field& field, const Vector& x) {
+/// The time counts for the Earth alone.
+Vector acceleration(const Field& field, const Vector& x, Real time) {
+  if (field.earth) return field.earth->acceleration(x, time);
   const Real r = norm(x);
   const Real s = x[2] / r;
   Real radial = 1, across = 0;
@@ -55,7 +61,8 @@ Vector acceleration(const Field& field, const Vector& x) {
 }
 
 /// Increments of position and velocity over a step by Störmer's rule with n parts.
-State parts(const Field& field, const State& start, const Vector& first, Real step, int n) {
+State parts(const Field& field, const State& start, const Vector& first, Real time, Real step,
+            int n) {
   const Real h = step / n;
   State change{};
   Vector slope, x;
@@ -65,7 +72,7 @@ State parts(const Field& field, const State& start, const Vector& first, Real st
       change.x[i] += h * slope[i];
       x[i] = start.x[i] + change.x[i];
     }
-    const Vector a = acceleration(field, x);
+    const Vector a = acceleration(field, x, time + k * h);
     if (k == n) {
       for (int i = 0; i < 3; ++i) change.v[i] = (slope[i] - start.v[i]) + h / 2 * a[i];
       return change;
@@ -76,12 +83,12 @@ State parts(const Field& field, const State& start, const Vector& first, Real st
 
 /// A step that goes until its columns agree to the tolerance; 0 if they do not, else the number of
 /// columns.
-int extrapolate(const Field& field, State& state, Real step, Real tolerance) {
-  const Vector first = acceleration(field, state.x);
+int extrapolate(const Field& field, State& state, Real time, Real step, Real tolerance) {
+  const Vector first = acceleration(field, state.x, time);
   std::array<State, most_columns> table;
   const Real scale_x = norm(state.x), scale_v = norm(state.v);
   for (int j = 0; j < most_columns; ++j) {
-    State above = parts(field, state, first, step, j + 1);
+    State above = parts(field, state, first, time, step, j + 1);
     State last{};
     for (int k = 1; k <= j; ++k) {
       const Real ratio = Real(j + 1) / Real(j + 1 - k);
@@ -117,8 +124,9 @@ int extrapolate(const Field& field, State& state, Real step, Real tolerance) {
 /// A flight that remembers the step that it takes when nothing shortens the step.
 class Flight {
  public:
-  Flight(const Field& field, const State& state, Real tolerance)
-      : field_(field), state_(state), tolerance_(tolerance) {}
+  /// `begin` is the state's time for the field; times are counted from it.
+  Flight(const Field& field, const State& state, Real begin, Real tolerance)
+      : field_(field), state_(state), begin_(begin), tolerance_(tolerance) {}
 
   bool to(Real time) {
     if (step_ == 0) step_ = Real(0.2) * pace();
@@ -127,7 +135,7 @@ class Flight {
       const bool is_last = std::abs(left) <= step_;
       const Real step = is_last ? left : std::copysign(step_, left);
       State next = state_;
-      const int columns = extrapolate(field_, next, step, tolerance_);
+      const int columns = extrapolate(field_, next, begin_ + time_, step, tolerance_);
       if (columns == 0) {
         step_ = std::abs(step) / 2;
         if (!(step_ > 1e-6L * pace())) return false;
@@ -152,6 +160,7 @@ class Flight {
  private:
   Field field_;
   State state_;
+  Real begin_;
   Real tolerance_;
   Real time_ = 0;
   Real step_ = 0;
@@ -234,16 +243,17 @@ bool narrow(const Pair& before, Real end, Real way, Nearest& nearest) {
 extern "C" {
 
 // Numbers come by their address: Python's interface would hand them over as doubles. `centre` is mu
-// and the radius of the zonals, whose highest degree is `highest`.
+// and the radius of the zonals, whose highest degree is `highest`; `earth` is null or takes their
+// place, and `begin` is the time of the starts for it.
 
 /// Computes the states of `flights` orbits at `count` times, which move away from 0. Returns 1 if
 /// an orbit cannot be flown.
 int fly(int flights, const long double* starts, const long double* centre, int highest,
-        const long double* zonals, int count, const long double* times,
-        const long double* tolerance, long double* states) {
-  const Field field{centre[0], centre[1], highest, zonals};
+        const long double* zonals, void* earth, const long double* begin, int count,
+        const long double* times, const long double* tolerance, long double* states) {
+  const Field field{centre[0], centre[1], highest, zonals, static_cast<Earth*>(earth)};
   for (int f = 0; f < flights; ++f) {
-    Flight flight(field, read(starts + 6 * f), *tolerance);
+    Flight flight(field, read(starts + 6 * f), *begin, *tolerance);
     for (int k = 0; k < count; ++k) {
       if (!flight.to(times[k])) return 1;
       write(flight.state(), states + 6 * (std::size_t(f) * count + k));
@@ -257,12 +267,12 @@ int fly(int flights, const long double* starts, const long double* centre, int h
 /// of the closing speed between two of them is narrowed down by flights.
 int least_separations(int flights, const long double* first, const long double* second,
                       const long double* centre, int highest, const long double* zonals,
-                      const long double* window, int looks, const long double* tolerance,
-                      long double* separations, long double* times) {
-  const Field field{centre[0], centre[1], highest, zonals};
+                      void* earth, const long double* begin, const long double* window, int looks,
+                      const long double* tolerance, long double* separations, long double* times) {
+  const Field field{centre[0], centre[1], highest, zonals, static_cast<Earth*>(earth)};
   for (int f = 0; f < flights; ++f) {
-    Pair pair{Flight(field, read(first + 6 * f), *tolerance),
-              Flight(field, read(second + 6 * f), *tolerance)};
+    Pair pair{Flight(field, read(first + 6 * f), *begin, *tolerance),
+              Flight(field, read(second + 6 * f), *begin, *tolerance)};
     Nearest nearest;
     if (!pair.to(window[0])) return 1;
     nearest.add(pair);

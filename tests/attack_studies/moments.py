@@ -4,7 +4,6 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene
 from flight import REAL, coast_times
 from refusal import judge_surface, results
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, samples_of)
@@ -14,7 +13,7 @@ SCATTERS = 7
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.1, source.one_of([2, 5, 12])), orders=(1, 2, 3, 4),
+    scene = source.scene(revolutions=(0.1, source.one_of([2, 5, 12])), orders=(1, 2, 3, 4),
                   weights=(1, 4, 4, 2))
     table = scene.tables["uncertainty"] = {}
     scene.frame_of_results = scene.frame(table, "inertial")

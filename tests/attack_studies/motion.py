@@ -3,13 +3,12 @@ import numpy as np
 
 import orbit
 from command import Refused, Run
-from drawing import Scene
 from flight import REAL, coast_times
 from refusal import judge_refusal, says_below_surface
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.05, source.one_of([3, 8, 20])))
+    scene = source.scene(revolutions=(0.05, source.one_of([3, 8, 20])))
     table = scene.tables["deputy"] = {}
     scene.frame_of_motion = scene.frame(table)
     distance = source.logarithmic(0.5, 3e4)

@@ -4,13 +4,12 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene
 from flight import REAL
 from refusal import results
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.5, 1), orders=(2, 4), weights=(3, 2), largest_e=0.3,
+    scene = source.scene(revolutions=(0.5, 1), orders=(2, 4), weights=(3, 2), largest_e=0.3,
                   coordinates=False, may_go_back=False)
     return scene
 

@@ -3,7 +3,7 @@ import numpy as np
 
 import orbit
 from command import Run
-from drawing import Scene, rounded
+from drawing import rounded
 from flight import REAL, coast_times
 from refusal import results
 from uncertain import (burn_covariance, draw_burn, draw_known, inertial_covariance, judge_quantile,
@@ -13,7 +13,7 @@ SAMPLES = 800
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.2, source.one_of([2, 4])), orders=(1, 2, 3),
+    scene = source.scene(revolutions=(0.2, source.one_of([2, 4])), orders=(1, 2, 3),
                   weights=(1, 4, 2), may_go_back=False, coordinates=False,
                   whole=source.one_of([None, 2.0, 4.0], [5, 2, 1]))
     deputy = scene.tables["deputy"] = {}

@@ -4,7 +4,6 @@ import numpy as np
 
 import orbit
 from command import Run, number
-from drawing import Scene
 from flight import REAL, FlightFailed
 from plans import judge_coasting, judge_legs, judge_optimal, judge_revolutions
 from refusal import judge_surface, results
@@ -18,7 +17,7 @@ EXTRAS = {"none": 3, "optimal": 4, "limited": 3, "coast": 2, "waypoints": 2, "re
 def draw(source):
     extra = source.one_of(list(EXTRAS), list(EXTRAS.values()))
     most = [1.5, 3, 8, 15] if extra in ("optimal", "limited") else [1.5, 3, 8]
-    scene = Scene(source, revolutions=(0.1, source.one_of(most)), orders=(2, 3, 4),
+    scene = source.scene(revolutions=(0.1, source.one_of(most)), orders=(2, 3, 4),
                   weights=(3, 3, 1))
     scene.extra = extra
     if "coordinates" in scene.tables["jet"] and source.chance(0.5):
@@ -31,7 +30,7 @@ def draw(source):
     scene.distance = source.logarithmic(10, 2e4)
     if extra == "optimal" and source.chance(0.2):
         scene.distance = source.logarithmic(2e4, 3e5)
-        if source.chance(0.7):
+        if source.chance(0.7) and not scene.is_earth:
             scene.tables["jet"]["coordinates"] = "flow-box"
     draw_ends(scene, table)
     rate = scene.distance * float(scene.rate)

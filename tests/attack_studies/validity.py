@@ -8,17 +8,17 @@ import numpy as np
 
 import orbit
 from command import Refused, Run
-from drawing import Scene
 from flight import REAL
 from refusal import judge_refusal
 
 RANDOM = 300
+RANDOM_OF_EARTH = 80  # whose flights take ten times as long
 SEARCHES = 4
 STEPS = 60
 
 
 def draw(source):
-    scene = Scene(source, revolutions=(0.1, source.one_of([1.5, 4])), orders=(1, 2, 3, 4),
+    scene = source.scene(revolutions=(0.1, source.one_of([1.5, 4])), orders=(1, 2, 3, 4),
                   weights=(1, 3, 3, 1))
     table = scene.tables["validity"] = {"tolerance_m": source.logarithmic(0.01, 100)}
     scene.validity_frame = scene.frame(table)
@@ -153,10 +153,11 @@ def search(scene, predict, order, reach):
             part /= np.linalg.norm(part, axis=1)[:, None]
         return unit
 
-    units = normalised(random.normal(size=(RANDOM, 6)))
+    count = RANDOM_OF_EARTH if scene.is_earth else RANDOM
+    units = normalised(random.normal(size=(count, 6)))
     # Inside the ellipsoid too.
-    shrunk = units * np.repeat(random.uniform(0, 1, size=(RANDOM, 2)) ** 0.2, 3, axis=1)
-    units = np.concatenate([units, shrunk[:RANDOM // 5]])
+    shrunk = units * np.repeat(random.uniform(0, 1, size=(count, 2)) ** 0.2, 3, axis=1)
+    units = np.concatenate([units, shrunk[:count // 5]])
     found = misses(units)
     if np.all(np.isnan(found)):
         return None, None
@@ -164,7 +165,7 @@ def search(scene, predict, order, reach):
     best = units[np.argsort(found)[-SEARCHES:]].copy()
     values = np.sort(found)[-SEARCHES:]
     width = 0.4
-    for _ in range(STEPS // 10):
+    for _ in range((STEPS // 2 if scene.is_earth else STEPS) // 10):
         tries = np.repeat(best, 10, axis=0)
         tries = normalised(tries + width * random.normal(size=tries.shape))
         made = np.nan_to_num(misses(tries)).reshape(SEARCHES, 10)

@@ -30,7 +30,8 @@ class Flights:
                                @ self.axes(time)])
 
     def on(self, state, time, then):
-        return self.field.to(state, REAL(then) - REAL(time)) if then != time else state
+        return self.field.to(state, REAL(then) - REAL(time), begin=time) if (
+            then != time) else state
 
 
 def least_ratio(scene, deputy, time, axes):
@@ -39,8 +40,8 @@ def least_ratio(scene, deputy, time, axes):
     field, chief = scene.field, scene.chief
     axes = np.array(axes, dtype=REAL)
 
-    def scaled(times, chief, deputy):
-        chiefs, deputies = field.fly(chief, times), field.fly(deputy, times)
+    def scaled(times, chief, deputy, begin=REAL(0)):
+        chiefs, deputies = (field.fly(one, times, begin=begin) for one in (chief, deputy))
         return np.array([orbit.axes_of(c)[0] @ (d - c)[:3] / axes
                          for c, d in zip(chiefs, deputies)]), chiefs, deputies
 
@@ -54,7 +55,7 @@ def least_ratio(scene, deputy, time, axes):
         low, high = REAL(0), times[k + 1] - times[k]
         for _ in range(7):
             inner = low + (high - low) * np.linspace(0, 1, 11).astype(REAL)
-            part = scaled(inner, chiefs[k], deputies[k])[0]
+            part = scaled(inner, chiefs[k], deputies[k], times[k])[0]
             least = min(least, np.min(orbit.norm(part)))
             nearest = int(np.argmin(distances_to_lines(part)))
             low, high = inner[nearest], inner[nearest + 1]

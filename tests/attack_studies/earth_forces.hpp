@@ -1,0 +1,71 @@
+// The Earth of the attack: its harmonics, how it lies, the Sun and the Moon, in the long double of
+// the machine. Nothing of hamjet is included; ERFA gives what functions of the date alone are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace attack {
+
+using Real = long double;
+using Vector = std::array<Real, 3>;
+using Matrix = std::array<Vector, 3>;
+
+enum class Axes { itrf, eme2000, mod, tod };
+
+/// A row of finals2000A, with angles in radians.
+struct OrientationRow {
+  Real time_s;  ///< of the beginning of its day of UTC, after the epoch
+  Real ut1_minus_tt_s;
+  Real pole_x, pole_y, offset_x, offset_y;
+};
+
+struct EarthSettings {
+  int degree;
+  std::vector<Real> C, S;  ///< normalised fully, those of degree n and order m at n (n + 1)/2 + m
+  Real mu, radius, mu_sun, mu_moon;  ///< metres and seconds
+  double tt_day;                     ///< Julian date of the midnight before the epoch, in TT
+  Real tt_seconds;                   ///< of the epoch after it
+  Real ut1_minus_tt_s;               ///< at all times, without rows
+  std::vector<OrientationRow> rows;
+};
+
+class Earth {
+ public:
+  explicit Earth(EarthSettings settings);
+
+  /// Of a place along GCRF, at seconds after the epoch.
+  Vector acceleration(const Vector& x, Real time);
+  /// The matrix from GCRF.
+  Matrix axes(Axes axes, Real time);
+  /// d/dt of that to ITRF, per second.
+  Matrix rate_of_itrf(Real time);
+
+ private:
+  /// Celestial pole X and Y, the locators s and s', Sun and Moon.
+  static constexpr int components = 10;
+  static constexpr int nodes = 15;
+  using Values = std::array<Real, components>;
+  /// Coefficients of Chebyshev's polynomials on a day from the epoch.
+  using Day = std::array<Values, nodes>;
+
+  void sample(Real time, double* values) const;
+  const Day& day(long number);
+  const Values& slow(Real time);
+  OrientationRow orientation(Real time);
+  Matrix itrf(Real time);
+  Vector harmonics(const Vector& x) const;
+
+  EarthSettings settings_;
+  std::vector<Real> of_diagonal_, first_factor_, second_factor_, of_slope_;
+  std::map<long, Day> days_;
+  std::map<std::ptrdiff_t, std::vector<std::array<Real, 8>>> between_rows_;
+  Real slow_time_ = 0, itrf_time_ = 0;
+  bool has_slow_ = false, has_itrf_ = false;
+  Values slow_{};
+  Matrix itrf_{};
+};
+
+}  // namespace attack
