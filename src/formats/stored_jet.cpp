@@ -45,6 +45,8 @@ std::vector<double> state(const JsonReader& value, const std::vector<std::size_t
 std::vector<std::size_t> dimensions(SystemModel model) {
   std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
   for (std::size_t& size : sizes) size *= 2;
+  // A state about the real Earth may end with a parameter.
+  if (model == SystemModel::earth) sizes.push_back(sizes.back() + 1);
   return sizes;
 }
 
@@ -136,7 +138,8 @@ struct DescribedRun {
 
 std::vector<std::string> state_names(const JsonReader& json, const StoredJet& stored) {
   auto names = json.list([](const JsonReader& name) { return name.text(); });
-  if (stored.model != SystemModel::own || names.size() != stored.nominal_initial.size()) {
+  const bool has_own = stored.model == SystemModel::own || stored.model == SystemModel::earth;
+  if (!has_own || names.size() != stored.nominal_initial.size()) {
     json.fail(fmt::format("must have {} names, of a model that has its own",
                           stored.nominal_initial.size()));
   }

@@ -56,6 +56,15 @@ const std::vector<EarthParameter>& earth_parameters() {
   return parameters;
 }
 
+void add_parameter(SystemSettings& settings, std::string_view name) {
+  if (settings.own_names.empty()) {
+    const std::vector<std::string_view> names = variable_names(settings);
+    settings.own_names.assign(names.begin(), names.end());
+  }
+  settings.earth.value().parameters.emplace_back(name);
+  settings.own_names.emplace_back(name);
+}
+
 std::vector<double> parameter_values(const SystemSettings& settings) {
   std::vector<double> values;
   if (!settings.earth) return values;

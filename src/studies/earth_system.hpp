@@ -17,6 +17,10 @@ struct EarthParameter {
 };
 const std::vector<EarthParameter>& earth_parameters();
 
+/// Adds a parameter to the states of the model `earth`, and its name to theirs. Which spacecraft
+/// has which value is the caller's to say.
+void add_parameter(SystemSettings& settings, std::string_view name);
+
 /// The chief's values of a system's parameters, in the order in which states have them; empty for
 /// other models.
 std::vector<double> parameter_values(const SystemSettings& settings);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "geodetic_height.hpp"
@@ -21,6 +22,9 @@ Real polar_radius_squared(const ReferenceEllipsoid& ellipsoid) {
   const Real b = Real(1) - Real(ellipsoid.flattening);
   return b * b;
 }
+
+/// How far below the lowest height of a table the density is continued, as an exponential.
+constexpr double height_below_table_km = 20;
 
 }  // namespace
 
@@ -64,8 +68,15 @@ void AtmosphereField::expand_in(std::size_t count, const Real* x, const Real* y,
         const P ey = unit * r[1];
         const P ez = unit * r[2];
         const P* const h = height.expand(ex * ex + ey * ey, ez, P(b2), degree);
-        profile_.expand(P(a) * h[0], degree, density.data());
-        P scale{Real(factor_)};
+        const P height_km = P(a) * h[0];
+        profile_.expand(height_km, degree, density.data());
+        // A flight that decays is followed no further than the table knows the air: below, density
+        // and time of flight are guesses, and steps become ever shorter.
+        const double lowest = profile_.table().heights_km.front() - height_below_table_km;
+        P scale = P::of_lanes([&](std::size_t lane) {
+          const bool is_known = height_km.lane(static_cast<int>(lane)) >= Real(lowest);
+          return is_known ? Real(factor_) : Real(std::numeric_limits<double>::quiet_NaN());
+        });
         for (P& coefficient : density) {
           coefficient *= scale;
           scale *= P(a);

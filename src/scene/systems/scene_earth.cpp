@@ -15,7 +15,6 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/earth_orientation_file.hpp"
 #include "scene_earth_field.hpp"
-#include "scene_spacecraft.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -236,7 +235,6 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
              message && message->reference_frame_epoch.empty()) {
     earth.axes = message->reference_frame;
   }
-  read_drag(root, earth);
   settings.earth = std::move(earth);
 }
 

@@ -76,7 +76,15 @@ std::vector<SceneKey> atmosphere_keys() {
            "of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner}};
 }
 
-void read_drag(const TableReader& root, EarthSettings& earth) {
+void read_drag(const TableReader& root, SystemSettings& settings) {
+  if (!settings.earth) {
+    if (!root.has("spacecraft")) return;
+    root.table("spacecraft")
+        .fail("", fmt::format("without air, got a spacecraft of the model {}, must be left out, or "
+                              "system.model = \"earth\" with an atmosphere",
+                              model_name(settings.model)));
+  }
+  EarthSettings& earth = *settings.earth;
   const TableReader system = root.table("system");
   if (!system.has("atmosphere")) {
     for (const std::string_view key : {"density_factor", "bulge_exponent"}) {
@@ -129,7 +137,7 @@ void read_drag(const TableReader& root, EarthSettings& earth) {
                          fmt::format("a second parameter, got {} after {}, must be one at most",
                                      parameter.name, earth.parameters[0]));
       }
-      earth.parameters.emplace_back(parameter.name);
+      add_parameter(settings, parameter.name);
     }
   }
 }

@@ -14,8 +14,8 @@ namespace hamjet::io {
 std::vector<SceneKey> atmosphere_keys();
 
 /// Reads the air of the model `earth`, the chief's coefficient, and the names of the parameters in
-/// which `[jet]` expands.
-void read_drag(const TableReader& root, EarthSettings& earth);
+/// which `[jet]` expands. Refuses a table [spacecraft] of other models.
+void read_drag(const TableReader& root, SystemSettings& system);
 
 /// The C_D A / m, in m^2/kg, of the table `spacecraft` in a table; no value where it has none.
 std::optional<double> read_spacecraft(const TableReader& owner, const SystemSettings& system);

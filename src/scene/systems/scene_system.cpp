@@ -270,6 +270,7 @@ SystemSettings read_system(const TableReader& root) {
   for (const SystemParameter& parameter : description_of(settings.model).parameters) {
     read_parameter(system, parameter, settings);
   }
+  read_drag(root, settings);
   return settings;
 }
 

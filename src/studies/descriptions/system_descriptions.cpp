@@ -181,12 +181,7 @@ std::size_t degrees_of_freedom_of(const SystemSettings& settings) {
 
 std::vector<std::string_view> variable_names(const SystemSettings& settings) {
   if (!settings.own_names.empty()) return {settings.own_names.begin(), settings.own_names.end()};
-  std::vector<std::string_view> names =
-      variable_names(settings.model, degrees_of_freedom_of(settings));
-  if (settings.earth) {
-    names.insert(names.end(), settings.earth->parameters.begin(), settings.earth->parameters.end());
-  }
-  return names;
+  return variable_names(settings.model, degrees_of_freedom_of(settings));
 }
 
 }  // namespace hamjet

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "../descriptions/method_description.hpp"
+#include "../earth_system.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "single_transfer.hpp"
@@ -59,7 +60,7 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
 
 Scene with_deputy_parameters(Scene scene) {
   if (!differs(scene)) return scene;
-  EarthSettings& earth = *scene.system.earth;
+  const EarthSettings& earth = *scene.system.earth;
   const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_name);
   if (place != earth.parameters.end()) return scene;
   if (!earth.parameters.empty()) {
@@ -68,7 +69,7 @@ Scene with_deputy_parameters(Scene scene) {
                             "{}, must be without it: jets have one parameter",
                             earth.parameters[0]));
   }
-  earth.parameters.emplace_back(drag_name);
+  add_parameter(scene.system, drag_name);
   scene.variables.push_back(scene.nominal.size());
   scene.nominal.push_back(earth.drag_m2_kg);
   scene.coordinates = {};
