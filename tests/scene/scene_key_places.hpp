@@ -28,7 +28,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
   static const std::string oscillator_file = "paper/harmonic-oscillator";
   static const Override plane = {"nominal", "{position_m=[1, 1], momentum_kg_m_s=[0, 0]}"};
   static const std::map<std::string, Place, std::less<>> of_models = {
-      {"earth", {"earth/pair"}},
+      {"earth", {"earth/drag"}},
       {"own", {"own/pendulum"}},
       {"kepler", {orbit_file, {{"system", "{model=\"kepler\", mu_km3_s2=4e5}"}}}},
       {"harmonic-oscillator", {oscillator_file}},
@@ -44,6 +44,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
        {oscillator_file,
         {plane, {"system", "{model=\"fermi-pasta-ulam\", omega_rad_per_s=1, pairs=1}"}}}}};
   static const std::map<std::string, Place, std::less<>> of_tables = {
+      {"spacecraft", {"earth/drag"}},
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
       {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
       {"bounded", {orbit_file, {{"bounded", "{box={half_widths_m=[1, 1, 1]}}"}}}},
@@ -156,6 +157,9 @@ inline const std::map<std::string, Place>& special_places() {
       {"bounded.box.reference", {"", {}, "\"member\""}},
       {"bounded.box.position_m", {"", {{"bounded.box.reference", "\"rest\""}}}},
       {"system.model", {"", {}, "\"zonal-gravity\""}},
+      {"generating_function.despite_drag",
+       {"earth/pair", {{"generating_function", "{kinds=[\"F1\"]}"}}, "true"}},
+      {"spacecraft.drag_m2_kg", {"", {{"spacecraft", "{drag_m2_kg=0.01}"}}}},
       {"system.gravity_degree", {"", {}, "12"}},
       {"system.gravity_order", {"", {}, "5"}},
       {"system.orientation_file",

@@ -74,7 +74,7 @@ struct StoredJet {
   std::optional<StoredFlowBox> flow_box = {};
   /// Notes of the reader about the file, one line each.
   std::vector<std::string> notes = {};
-  std::vector<std::string> own_names = {};  ///< of a model "own", see SystemSettings
+  std::vector<std::string> own_names = {};  ///< where others than the usual ones, see SystemSettings
   /// One series for each component. In extended precision the printed digits bring back the numbers
   /// of the run bit by bit; in double precision the numbers are doubles.
   FlowJet<Extended> jet;

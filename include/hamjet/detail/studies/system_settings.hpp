@@ -77,7 +77,7 @@ struct SystemSettings {
   std::optional<GravityFile> gravity_file;
   std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
   std::optional<EarthSettings> earth;      ///< earth
-  std::vector<std::string> own_names;      ///< own: of (q, p); empty for the usual ones
+  std::vector<std::string> own_names;      ///< own: of (q, p); earth: with parameters; else empty
   std::optional<SystemText> own_text;      ///< own: as the scene writes it
 };
 
