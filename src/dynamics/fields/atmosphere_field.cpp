@@ -24,7 +24,7 @@ Real polar_radius_squared(const ReferenceEllipsoid& ellipsoid) {
 }
 
 /// How far below the lowest height of a table the density is continued, as an exponential.
-constexpr double height_below_table_km = 20;
+constexpr double height_below_table_km = 25;
 
 }  // namespace
 

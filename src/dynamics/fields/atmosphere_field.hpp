@@ -32,7 +32,7 @@ class AtmosphereField final : public LocalField {
   /// The height of a point in km; NaN near the centre, where it is not unique.
   double height_km(double x, double y, double z) const;
 
-  /// Coefficients are not finite where the height is not unique, and more than 20 km below the
+  /// Coefficients are not finite where the height is not unique, and more than 25 km below the
   /// lowest height of the table.
   void expand(std::size_t count, const double* x, const double* y, const double* z, int degree,
               double* out) const override;

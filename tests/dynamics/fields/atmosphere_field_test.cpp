@@ -80,6 +80,8 @@ TEST(AtmosphereField, TheDensityGoesOnBeyondItsTable) {
   const Extended far_expected = factor * Extended("2.27992379095184487988589774316133033e-156");
   EXPECT_LE(test::magnitude_of(far / far_expected - 1), 1e-29);
   EXPECT_NEAR(field.height_km(3, 4.5, 3.515625), 78.7890547485083880, 1e-11);
+  // More than 25 km below the table nothing is known.
+  EXPECT_TRUE(isnan(test::expanded<Extended>(field, {3, 4.5, 3.4}, 0)[0]));
   EXPECT_NEAR(field.height_km(-1.5, 30, 40.5), 44058.8638335032817, 1e-10);
 }
 
