@@ -1,5 +1,7 @@
 #include "exact_flow.hpp"
 
+#include <numeric>
+
 namespace hamjet {
 
 std::vector<double> nominal_of(const FlowJet<double>& jet) {
@@ -11,6 +13,16 @@ std::vector<double> nominal_of(const FlowJet<double>& jet) {
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
                                        const ClockTime& start_time, double duration) {
   return {system, SeriesSpace::create(1, 0), {0}, start, start_time, duration};
+}
+
+FlowProblem<double> linear_problem(const SharedSystem& system, const SpacePointer& space,
+                                   const std::vector<double>& start, const ClockTime& start_time,
+                                   double duration) {
+  std::vector<std::size_t> variables(start.size());
+  std::iota(variables.begin(), variables.end(), std::size_t{0});
+  FlowProblem<double> flow{system, space, variables, start, start_time, duration};
+  flow.symmetry = FlowSymmetry::none;
+  return flow;
 }
 
 GaussSettings exact_gauss() {

@@ -14,6 +14,12 @@ std::vector<double> nominal_of(const FlowJet<double>& jet);
 FlowProblem<double> trajectory_problem(const SharedSystem& system, const std::vector<double>& start,
                                        const ClockTime& start_time, double duration);
 
+/// A flow problem to first order in all numbers of the state, for which `space` has a variable
+/// each. No symmetry is left out: a few steps of order 1 are cheaper than putting it back.
+FlowProblem<double> linear_problem(const SharedSystem& system, const SpacePointer& space,
+                                   const std::vector<double>& start, const ClockTime& start_time,
+                                   double duration);
+
 /// The settings with which exact_flow integrates.
 GaussSettings exact_gauss();
 

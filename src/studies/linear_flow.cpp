@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <span>
 
 #include "../algebra/matrix_eigenvalues.hpp"
@@ -33,18 +32,6 @@ struct LinearArc {
 
 /// The largest relative local error.
 constexpr double local_error = 1e-14;
-
-/// A linear flow from a state, for integration.
-FlowProblem<double> linear_problem(const ComputedProblem& problem, const SpacePointer& space,
-                                   const std::vector<double>& start, const ClockTime& start_time,
-                                   double duration) {
-  std::vector<std::size_t> variables(start.size());
-  std::iota(variables.begin(), variables.end(), std::size_t{0});
-  FlowProblem<double> flow{problem.system, space, variables, start, start_time, duration};
-  // A few steps of order 1 are cheaper than leaving a symmetry out and putting it back.
-  flow.symmetry = FlowSymmetry::none;
-  return flow;
-}
 
 LinearArc arc_of(const ComputedProblem& problem, double time, const FlowJet<double>& jet) {
   return {time, nominal_of(jet),
@@ -81,7 +68,8 @@ std::vector<LinearArc> arcs_of_steps(const ComputedProblem& problem,
 LinearArc linear_arc(const ComputedProblem& problem, const SpacePointer& space,
                      const std::vector<double>& start, const ClockTime& start_time,
                      double duration) {
-  const FlowProblem<double> flow = linear_problem(problem, space, start, start_time, duration);
+  const FlowProblem<double> flow =
+      linear_problem(problem.system, space, start, start_time, duration);
   std::vector<LinearArc> one = arcs_of_steps(problem, flow, 1);
   if (!one.empty()) return std::move(one.front());
   GaussSettings adaptive;
@@ -95,8 +83,8 @@ std::vector<LinearArc> linear_arcs(const ComputedProblem& problem, const SpacePo
                                    const std::vector<double>& start, const ClockTime& start_time,
                                    double duration, std::size_t count) {
   if (count == 1) return {linear_arc(problem, space, start, start_time, duration)};
-  std::vector<LinearArc> arcs =
-      arcs_of_steps(problem, linear_problem(problem, space, start, start_time, duration), count);
+  std::vector<LinearArc> arcs = arcs_of_steps(
+      problem, linear_problem(problem.system, space, start, start_time, duration), count);
   if (arcs.empty()) {
     LinearArc last{0, start, {}};
     for (std::size_t k = 1; k <= count; ++k) {

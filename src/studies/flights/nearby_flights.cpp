@@ -1,7 +1,6 @@
 #include "nearby_flights.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "../../integrators/gauss/gauss_tolerance.hpp"
 #include "../exact_flow.hpp"
@@ -39,11 +38,8 @@ std::vector<double> NearbyFlights::end(const std::vector<double>& start,
 FlowJet<double> NearbyFlights::linear_end(const std::vector<double>& start,
                                           const ClockTime& start_time, double duration) {
   if (!step_tolerance_ || std::abs(duration) > tried_) try_tolerance(start, start_time, duration);
-  std::vector<std::size_t> variables(start.size());
-  std::iota(variables.begin(), variables.end(), std::size_t{0});
-  FlowProblem<double> problem{
-      system_, SeriesSpace::create(start.size(), 1), variables, start, start_time, duration};
-  problem.symmetry = FlowSymmetry::none;
+  const FlowProblem<double> problem =
+      linear_problem(system_, SeriesSpace::create(start.size(), 1), start, start_time, duration);
   validate(problem);
   const GaussSettings settings = exact_gauss();
   IntegrationStatistics statistics;

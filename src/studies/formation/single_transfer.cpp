@@ -32,10 +32,9 @@ double rounding_of_flights(const Matrix<double>& linear, std::span<const double>
 }
 
 double rounding_of_flights(const ComputedProblem& problem, double time) {
-  FlowProblem<double> flow{problem.system,     SeriesSpace::create(problem.nominal.size(), 1),
-                           problem.variables,  problem.nominal,
-                           problem.start_time, time};
-  flow.symmetry = FlowSymmetry::none;  // leaving out a symmetry saves nothing at order 1
+  const FlowProblem<double> flow =
+      linear_problem(problem.system, SeriesSpace::create(problem.nominal.size(), 1),
+                     problem.nominal, problem.start_time, time);
   GaussSettings settings;
   settings.tolerance = 1e-10;  // the result serves as a scale, for which two digits would do
   IntegrationStatistics statistics;
