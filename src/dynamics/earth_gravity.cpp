@@ -35,23 +35,22 @@ DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
     const Expression& t = z.back();
     const std::vector<Expression> axes = time_values(gravity.axes, t);
     const ExpressionVector fixed = turned(axes, q);
+    const auto seen_from = [&](const std::vector<Expression>& body) -> ExpressionVector {
+      const ExpressionVector place = turned(axes, body);
+      return {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]};
+    };
     Expression potential = field_value(gravity.potential, fixed);
     Expression others(0);
     for (const DisturbingBody& body : gravity.others) {
       const std::vector<Expression> s = time_values(body.position, t);
-      const ExpressionVector place = turned(axes, s);
-      potential += field_value(body.potential,
-                               {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
+      potential += field_value(body.potential, seen_from(s));
       others -= Expression(body.mu) * pow(dot(s, s), Expression(-1.5)) * dot(q, s);
     }
     if (const auto& radiation = gravity.radiation) {
-      const std::vector<Expression> s = time_values(radiation->sun, t);
-      const ExpressionVector place = turned(axes, s);
       Expression light = radiation->coefficient.in(z, 3);
       if (radiation->light != nullptr) light *= time_values(radiation->light, t)[0];
       potential -=
-          light * field_value(radiation->potential,
-                              {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]});
+          light * field_value(radiation->potential, seen_from(time_values(radiation->sun, t)));
     }
     return std::vector<Expression>{dot(p, p) / 2 - potential - others};
   };

@@ -37,8 +37,31 @@ SpacecraftCoefficient coefficient(const EarthSettings& earth, std::string_view n
   return {value, static_cast<std::size_t>(place - earth.parameters.begin())};
 }
 
-constexpr std::string_view drag_name = "drag_m2_kg";
 constexpr std::string_view density_factor_name = "density_factor";
+
+// Splines through the shipped tables are made once: systems are made several times in a study.
+struct HarrisPriesterProfiles {
+  DensityProfile least;
+  DensityProfile greatest;
+};
+
+const HarrisPriesterProfiles& harris_priester_profiles() {
+  static const HarrisPriesterProfiles profiles = [] {
+    const HarrisPriesterTable table = harris_priester_table();
+    return HarrisPriesterProfiles{table.minimum, table.maximum};
+  }();
+  return profiles;
+}
+
+const DensityProfile& exponential_profile() {
+  static const DensityProfile profile = exponential_table();
+  return profile;
+}
+
+/// Whether there is air that bulges towards the Sun.
+bool bulges(const EarthSettings& earth) {
+  return earth.atmosphere && earth.atmosphere->model == AtmosphereModel::harris_priester;
+}
 
 /// The Earth's angular velocity, rad/s (IERS Conventions 2010, table 1.1: 7.292115e-5).
 constexpr double earth_rate = 7.292115e-5;
@@ -50,8 +73,8 @@ constexpr double bulge_lag = std::numbers::pi / 6;
 
 const std::vector<EarthParameter>& earth_parameters() {
   static const std::vector<EarthParameter> parameters = {
-      {drag_name, "C_D A / m, in m^2/kg", [](const EarthSettings& e) { return e.drag_m2_kg; }},
-      {density_factor_name, "of all densities of the air",
+      {drag_parameter, [](const EarthSettings& e) { return e.drag_m2_kg; }},
+      {density_factor_name,
        [](const EarthSettings& e) { return e.atmosphere ? e.atmosphere->density_factor : 1; }}};
   return parameters;
 }
@@ -88,15 +111,19 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
       std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, coefficients_of(earth));
   gravity.axes =
       std::make_shared<const EarthRotation>(epoch, time_s, first, last, earth.orientation);
-  const auto add = [&](bool acts, PerturbingBody body, double mu_km3_s2) {
-    if (!acts) return;
-    const double mu = mu_km3_s2 / settings.mu_km3_s2;
-    gravity.others.push_back({mu, std::make_shared<const PointMassField>(mu),
-                              std::make_shared<const BodyPosition>(
-                                  body, epoch, time_s, convert<double>(length_km), first, last)});
+  const auto position_of = [&](PerturbingBody body) {
+    return std::make_shared<const BodyPosition>(body, epoch, time_s, convert<double>(length_km),
+                                                first, last);
   };
-  add(earth.has_sun, PerturbingBody::sun, earth.mu_sun_km3_s2);
-  add(earth.has_moon, PerturbingBody::moon, earth.mu_moon_km3_s2);
+  const auto add = [&](std::shared_ptr<const BodyPosition> position, double mu_km3_s2) {
+    const double mu = mu_km3_s2 / settings.mu_km3_s2;
+    gravity.others.push_back({mu, std::make_shared<const PointMassField>(mu), std::move(position)});
+  };
+  // What attracts and what makes the air bulge is one function, so that it is asked once a stage.
+  std::shared_ptr<const BodyPosition> sun;
+  if (earth.has_sun || bulges(earth)) sun = position_of(PerturbingBody::sun);
+  if (earth.has_sun) add(sun, earth.mu_sun_km3_s2);
+  if (earth.has_moon) add(position_of(PerturbingBody::moon), earth.mu_moon_km3_s2);
   gravity.parameters = earth.parameters.size();
   const DynamicalSystem system = earth_gravity(gravity);
   if (!earth.atmosphere) return system;
@@ -104,24 +131,24 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
   // Densities in kg/m^3 times metres a unit of length, so that B in m^2/kg gives canonical forces.
   const double density_unit = convert<double>(length_km) * 1000;
   TurningAtmosphere atmosphere;
-  const auto density = [&](const DensityTable& table) {
-    return std::make_shared<const AtmosphereField>(table, convert<double>(length_km), density_unit);
+  const auto density = [&](const DensityProfile& profile) {
+    return std::make_shared<const AtmosphereField>(profile, convert<double>(length_km),
+                                                   density_unit);
   };
-  if (air.model == "exponential") {
-    atmosphere.least = density(exponential_table());
-  } else {
-    const HarrisPriesterTable table = harris_priester_table();
-    atmosphere.least = density(table.minimum);
-    atmosphere.greatest = density(table.maximum);
-    atmosphere.sun = std::make_shared<const BodyPosition>(PerturbingBody::sun, epoch, time_s,
-                                                          convert<double>(length_km), first, last);
+  if (bulges(earth)) {
+    const auto& [least, greatest] = harris_priester_profiles();
+    atmosphere.least = density(least);
+    atmosphere.greatest = density(greatest);
+    atmosphere.sun = sun;
     atmosphere.lag = bulge_lag;
     atmosphere.exponent = air.bulge_exponent;
+  } else {
+    atmosphere.least = density(exponential_profile());
   }
   atmosphere.rate = earth_rate * convert<double>(time_s);
   atmosphere.factor = coefficient(earth, density_factor_name, air.density_factor);
   return with_drag(system, gravity.axes, atmosphere,
-                   coefficient(earth, drag_name, earth.drag_m2_kg));
+                   coefficient(earth, drag_parameter, earth.drag_m2_kg));
 }
 
 }  // namespace hamjet

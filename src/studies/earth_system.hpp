@@ -11,11 +11,13 @@ namespace hamjet {
 /// A quantity that may be a parameter of the model `earth`, and with it a variable of jets and a
 /// difference between spacecraft.
 struct EarthParameter {
-  std::string_view name;  ///< in `jet.variables`, and of its key
-  std::string_view help;
+  std::string_view name;                  ///< in `jet.variables`, and of its key
   double (*value)(const EarthSettings&);  ///< the chief's
 };
 const std::vector<EarthParameter>& earth_parameters();
+
+/// C_D A / m, in m^2/kg.
+inline constexpr std::string_view drag_parameter = "drag_m2_kg";
 
 /// Adds a parameter to the states of the model `earth`, and its name to theirs. Which spacecraft
 /// has which value is the caller's to say.

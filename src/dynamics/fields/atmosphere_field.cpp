@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "geodetic_height.hpp"
@@ -28,9 +29,9 @@ constexpr double height_below_table_km = 25;
 
 }  // namespace
 
-AtmosphereField::AtmosphereField(const DensityTable& table, double length_km, double factor,
+AtmosphereField::AtmosphereField(DensityProfile profile, double length_km, double factor,
                                  const ReferenceEllipsoid& ellipsoid)
-    : profile_(table), ellipsoid_(ellipsoid), length_km_(length_km), factor_(factor) {
+    : profile_(std::move(profile)), ellipsoid_(ellipsoid), length_km_(length_km), factor_(factor) {
   const auto is_positive = [](double value) { return value > 0 && std::isfinite(value); };
   if (!is_positive(length_km) || !is_positive(factor)) {
     throw Error(ErrorKind::usage,

@@ -20,8 +20,8 @@ class AtmosphereField final : public LocalField {
  public:
   /// `length_km` is the unit of length in km, and `factor` what densities in kg/m^3 are multiplied
   /// by. Throws Error(usage) unless both and the ellipsoid's radius are positive and finite, its
-  /// flattening at least 0 and below 1/2, and as DensityProfile does.
-  AtmosphereField(const DensityTable& table, double length_km, double factor = 1,
+  /// flattening at least 0 and below 1/2.
+  AtmosphereField(DensityProfile profile, double length_km, double factor = 1,
                   const ReferenceEllipsoid& ellipsoid = {});
 
   const DensityProfile& profile() const { return profile_; }

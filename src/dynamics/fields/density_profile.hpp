@@ -26,9 +26,11 @@ struct DensityTable {
 /// middle of its widest gap.
 class DensityProfile {
  public:
-  /// Throws Error(usage) unless the table has at least four nodes, finite increasing heights and
-  /// finite positive densities.
-  explicit DensityProfile(const DensityTable& table);
+  /// Implicit, so that a table can be given wherever a profile is expected. The spline takes some
+  /// milliseconds. Throws Error(usage) unless the table has at least four nodes, finite increasing
+  /// heights and finite positive densities.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  DensityProfile(const DensityTable& table);
 
   const DensityTable& table() const { return table_; }
 

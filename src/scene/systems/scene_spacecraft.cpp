@@ -66,7 +66,8 @@ const TableDescription& spacecraft_table() {
 std::vector<SceneKey> atmosphere_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const AtmosphereSettings preset;
-  return {{"atmosphere", form::choice({"harris-priester", "exponential"}), absent::other("no drag"),
+  return {{"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
+           absent::other("no drag"),
            "density of the air, which turns with the Earth: `harris-priester` bulges on the "
            "afternoon side, 100 to 1000 km high",
            owner},
@@ -100,8 +101,7 @@ void read_drag(const TableReader& root, SystemSettings& settings) {
     }
   } else {
     AtmosphereSettings air;
-    air.model = system.text("atmosphere");
-    system.choice("atmosphere");
+    air.model = static_cast<AtmosphereModel>(system.choice("atmosphere"));
     if (system.has("density_factor")) air.density_factor = system.positive_number("density_factor");
     system.read_if_any("bulge_exponent", air.bulge_exponent);
     if (air.bulge_exponent % 2 != 0) {

@@ -71,6 +71,9 @@ Json system_json(const SystemSettings& system) {
                             {"origin_offset_m", json_value(system.gravity_file->origin_offset_m)}};
   }
   if (const auto& earth = system.earth) {
+    const auto of_air = [&](const auto& value) {
+      return earth->atmosphere ? Json(value(*earth)) : Json(nullptr);
+    };
     json["earth"] = {
         {"gravity_degree", earth->degree},
         {"gravity_order", earth->order},
@@ -78,12 +81,12 @@ Json system_json(const SystemSettings& system) {
         {"moon_mu_km3_s2", earth->has_moon ? Json(earth->mu_moon_km3_s2) : Json(nullptr)},
         {"epoch_tt", earth->epoch_tt},
         {"orientation_file", text_or_null(earth->orientation_file)},
-        {"atmosphere", earth->atmosphere ? Json(earth->atmosphere->model) : Json(nullptr)},
+        {"atmosphere", of_air([](const EarthSettings& e) { return name_of(e.atmosphere->model); })},
         {"density_factor",
-         earth->atmosphere ? Json(earth->atmosphere->density_factor) : Json(nullptr)},
+         of_air([](const EarthSettings& e) { return e.atmosphere->density_factor; })},
         {"bulge_exponent",
-         earth->atmosphere ? Json(earth->atmosphere->bulge_exponent) : Json(nullptr)},
-        {"drag_m2_kg", earth->atmosphere ? Json(earth->drag_m2_kg) : Json(nullptr)},
+         of_air([](const EarthSettings& e) { return e.atmosphere->bulge_exponent; })},
+        {"drag_m2_kg", of_air([](const EarthSettings& e) { return e.drag_m2_kg; })},
         {"axes", earth->axes}};
   }
   return json;

@@ -19,6 +19,7 @@ HAMJET_FIELDS(ComparisonSettings, methods, stages, steps_canonical, tolerances, 
 /// The names of an enumeration in scenes and results, in its order.
 inline const std::vector<std::string_view>& names_of(SystemModel) { return model_names(); }
 inline const std::vector<std::string_view>& names_of(IntegrationMethod) { return method_names(); }
+inline const auto& names_of(AtmosphereModel) { return atmosphere_names; }
 
 /// An enumeration whose enumerators have names.
 template <class Enumeration>

@@ -31,8 +31,6 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
 
 namespace {
 
-constexpr std::string_view drag_name = "drag_m2_kg";
-
 /// Whether the deputy has a C_D A / m of its own.
 bool differs(const Scene& scene) {
   return scene.system.earth && scene.deputy && scene.deputy->drag_m2_kg &&
@@ -61,7 +59,7 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
 Scene with_deputy_parameters(Scene scene) {
   if (!differs(scene)) return scene;
   const EarthSettings& earth = *scene.system.earth;
-  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_name);
+  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_parameter);
   if (place != earth.parameters.end()) return scene;
   if (!earth.parameters.empty()) {
     throw Error(ErrorKind::scene,
@@ -69,7 +67,7 @@ Scene with_deputy_parameters(Scene scene) {
                             "{}, must be without it: jets have one parameter",
                             earth.parameters[0]));
   }
-  add_parameter(scene.system, drag_name);
+  add_parameter(scene.system, drag_parameter);
   scene.variables.push_back(scene.nominal.size());
   scene.nominal.push_back(earth.drag_m2_kg);
   scene.coordinates = {};
@@ -80,7 +78,7 @@ std::vector<double> deputy_parameters(const Scene& scene) {
   std::vector<double> differences;
   if (!scene.system.earth) return differences;
   for (const std::string& name : scene.system.earth->parameters) {
-    const bool is_own = name == drag_name && differs(scene);
+    const bool is_own = name == drag_parameter && differs(scene);
     differences.push_back(is_own ? *scene.deputy->drag_m2_kg - scene.system.earth->drag_m2_kg : 0);
   }
   return differences;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hamjet/detail/studies/fields.hpp"
@@ -15,11 +18,22 @@ class SphericalHarmonicCoefficients;
 /// C_D where a scene gives none: of a compact body in free molecular flow.
 inline constexpr double usual_drag_coefficient = 2.2;
 
+/// How dense the air is; the exponential one has no bulge.
+enum class AtmosphereModel { harris_priester, exponential };
+
+/// The models' names in scenes and results, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> atmosphere_names = {"harris-priester",
+                                                                     "exponential"};
+
+inline std::string_view name_of(AtmosphereModel model) {
+  return atmosphere_names[static_cast<std::size_t>(model)];
+}
+
 /// The air of the model `earth`, see TurningAtmosphere.
 struct AtmosphereSettings {
-  std::string model = "harris-priester";  ///< or "exponential", which has no bulge
-  double density_factor = 1;              ///< of all densities
-  int bulge_exponent = 4;                 ///< 2 for low inclinations to 6 for polar orbits
+  AtmosphereModel model = AtmosphereModel::harris_priester;
+  double density_factor = 1;  ///< of all densities
+  int bulge_exponent = 4;     ///< 2 for low inclinations to 6 for polar orbits
 };
 
 /// The model `earth`: the forces that act, and when and how the Earth stands.
