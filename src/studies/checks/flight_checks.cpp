@@ -179,7 +179,7 @@ std::vector<SelfCheck> flight_checks(const Scene& scene, const std::vector<Check
       system->conserved_quantity() == ConservedQuantity::none) {
     energy.state = SelfCheckState::not_applicable;
     energy.limit.reset();
-    energy.text = "the forces depend on the time, so that no energy is kept";
+    energy.text = no_energy_is_kept;
   }
   const auto is_on = [](const SelfCheck& check) { return check.state == SelfCheckState::passed; };
   const bool is_any_on = std::any_of(checks.begin(), checks.end(), is_on);

@@ -10,6 +10,10 @@
 
 namespace hamjet {
 
+/// Why the check `energy` of a system without a conserved quantity does not apply.
+inline constexpr const char* no_energy_is_kept =
+    "the forces depend on the time or take energy away, so that no energy is kept";
+
 /// A flight that a study reports: that of the chief, a deputy, or a frozen orbit.
 struct CheckedFlight {
   std::string name;           ///< for example "the chief"

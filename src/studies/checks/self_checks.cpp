@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "../../integrators/momentum_unit.hpp"
@@ -13,6 +14,7 @@
 #include "../largest_coefficient.hpp"
 #include "../stopwatch.hpp"
 #include "error_promise.hpp"
+#include "flight_checks.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "number_scan.hpp"
@@ -108,14 +110,26 @@ void check_step_error(SelfCheck& check, const RunResult& run) {
   }
 }
 
-constexpr const char* no_energy =
-    "the forces depend on the time or take energy away, so that no energy is kept";
+/// The scene's system, made where the first check asks for it.
+class CheckedSystem {
+ public:
+  explicit CheckedSystem(const Scene& scene) : scene_(scene) {}
+  const DynamicalSystem& get() {
+    if (!made_) made_ = make_system(scene_);
+    return *made_;
+  }
 
-void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
+ private:
+  const Scene& scene_;
+  std::optional<DynamicalSystem> made_;
+};
+
+void check_energy(SelfCheck& check, const Scene& scene, CheckedSystem& system,
+                  const RunResult& run) {
   const EnergyAlongNominal& energy = run.energy;
   check.seconds += energy.seconds;
-  const ConservedQuantity kept = make_system(scene).conserved_quantity();
-  if (kept == ConservedQuantity::none) return not_applicable(check, no_energy);
+  const ConservedQuantity kept = system.get().conserved_quantity();
+  if (kept == ConservedQuantity::none) return not_applicable(check, no_energy_is_kept);
   const char* const name = kept == ConservedQuantity::energy ? "the energy" : "Jacobi's integral";
   const double scale = std::max(std::abs(energy.initial), energy.initial_terms / 100);
   const double value = energy.largest_change > 0 ? energy.largest_change / scale : 0;
@@ -140,8 +154,7 @@ void check_energy(SelfCheck& check, const Scene& scene, const RunResult& run) {
 /// The ratio of the largest frequency of the linearised motion along the nominal to that at its
 /// end, at least 1. Coefficients of degree d grow and shrink along an orbit as the d-th power of
 /// the frequency, and so does rounding that arises where they are large.
-double frequency_growth(const Scene& scene, const RunResult& run) {
-  const DynamicalSystem system = make_system(scene);
+double frequency_growth(const Scene& scene, const DynamicalSystem& system, const RunResult& run) {
   FieldAtStates<double> field(system);
   double largest = 0;
   double last = 0;
@@ -152,7 +165,8 @@ double frequency_growth(const Scene& scene, const RunResult& run) {
   return last > 0 && std::isfinite(largest) ? std::max(1.0, largest / last) : 1;
 }
 
-void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& run) {
+void check_symplecticity(SelfCheck& check, const Scene& scene, CheckedSystem& system,
+                         const RunResult& run) {
   const auto& method = description_of(run.settings.method);
   if (!method.not_symplectic.empty()) {
     return not_applicable(check, std::string(method.not_symplectic));
@@ -160,19 +174,16 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   if (run.symplecticity.empty()) {
     return not_applicable(check, "the jet is not expanded in all variables");
   }
-  if (!make_system(scene).is_hamiltonian) {
-    const auto largest =
-        std::max_element(run.symplecticity.begin(), run.symplecticity.end(),
-                         [](const auto& a, const auto& b) { return a.scaled < b.scaled; });
+  const auto largest =
+      std::max_element(run.symplecticity.begin(), run.symplecticity.end(),
+                       [](const auto& a, const auto& b) { return a.scaled < b.scaled; });
+  if (!system.get().is_hamiltonian) {
     return not_applicable(
         check, fmt::format("drag is no Hamiltonian force, so that the flow is not symplectic: the "
                            "Poisson brackets miss symplecticity by {:.2g} at degree {}",
                            largest->scaled, largest->degree));
   }
   if (has_time_shift(run.statistics.left_out)) {
-    const auto largest =
-        std::max_element(run.symplecticity.begin(), run.symplecticity.end(),
-                         [](const auto& a, const auto& b) { return a.scaled < b.scaled; });
     return not_applicable(
         check, fmt::format("a shift in time was put back, which is exact of the flow alone: the "
                            "Poisson brackets miss symplecticity by {:.2g} at degree {}",
@@ -182,7 +193,7 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, const RunResult& 
   const double linear_limit =
       1000 * rounding_of(scene.precision) *
       std::sqrt((1 + steps) * std::max(1.0, largest_coefficient(comparable_jet(scene, run), 1)));
-  const double growth = frequency_growth(scene, run);
+  const double growth = frequency_growth(scene, system.get(), run);
   const SymplecticityDefect* worst = nullptr;
   double worst_limit = 0;
   for (const SymplecticityDefect& defect : run.symplecticity) {
@@ -309,7 +320,7 @@ void check_error_estimate(SelfCheck& check, const Scene& scene, const RunResult&
   }
 }
 
-void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
+void run_check(SelfCheck& check, const Scene& scene, CheckedSystem& system, const RunResult& run) {
   switch (check.name) {
     case SelfCheckName::finite:
       return check_finite(check, scene, run);
@@ -318,9 +329,9 @@ void run_check(SelfCheck& check, const Scene& scene, const RunResult& run) {
     case SelfCheckName::step_error:
       return check_step_error(check, run);
     case SelfCheckName::energy:
-      return check_energy(check, scene, run);
+      return check_energy(check, scene, system, run);
     case SelfCheckName::symplecticity:
-      return check_symplecticity(check, scene, run);
+      return check_symplecticity(check, scene, system, run);
     case SelfCheckName::inversion:
       return check_inversion(check, scene, run);
     case SelfCheckName::surface:
@@ -347,6 +358,7 @@ std::string_view name_of(SelfCheckState state) {
 }
 
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run) {
+  CheckedSystem system(scene);
   std::vector<SelfCheck> checks;
   for (std::size_t i = 0; i < self_check_count; ++i) {
     SelfCheck& check = checks.emplace_back();
@@ -358,7 +370,7 @@ std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run) {
     }
     check.limit = setting.limit;
     const Stopwatch stopwatch(check.seconds);
-    run_check(check, scene, run);
+    run_check(check, scene, system, run);
   }
   return checks;
 }
