@@ -8,11 +8,11 @@
 #include <numbers>
 #include <vector>
 
-#include "dynamics/fields/atmosphere_field.hpp"
 #include "dynamics/fields/point_mass_field.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
 #include "support/errors.hpp"
+#include "support/exponential_air.hpp"
 #include "support/turning_axes.hpp"
 
 namespace hamjet {
@@ -26,25 +26,10 @@ constexpr double lag = 0.5;
 
 double inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-DensityTable table(double factor, double slope) {
-  DensityTable result;
-  for (int k = 0; k <= 8; ++k) {
-    result.heights_km.push_back(100 + 50.0 * k);
-    result.densities.push_back(factor * std::exp(-k * slope));
-  }
-  return result;
-}
-
-std::shared_ptr<const AtmosphereField> density(double factor, double slope) {
-  // The unit of length is 6378.137 km, and the air's body a sphere of that radius.
-  return std::make_shared<const AtmosphereField>(table(factor, slope), 6378.137, 1,
-                                                 ReferenceEllipsoid{6378.137, 0});
-}
-
 TurningAtmosphere bulging() {
   TurningAtmosphere air;
-  air.least = density(2, 1.1);
-  air.greatest = density(3, 0.8);
+  air.least = test::exponential_air(100, 2, 50 / 1.1);
+  air.greatest = test::exponential_air(100, 3, 50 / 0.8);
   air.sun = std::make_shared<const test::MovingPoint>(Triple{200, 90, 40}, Triple{-0.5, 2, 0.3});
   air.lag = lag;
   air.exponent = 4;
@@ -87,17 +72,16 @@ TEST(SpacecraftForces, DragIsThatOfItsFormula) {
   // The air's axis, by hand: the z axis turned by the tilt about x.
   const Triple axis = {0, -std::sin(tilt), std::cos(tilt)};
   const Triple v = {state[3] - rate * (axis[1] * q[2] - axis[2] * q[1]),
-                     state[4] - rate * (axis[2] * q[0] - axis[0] * q[2]),
-                     state[5] - rate * (axis[0] * q[1] - axis[1] * q[0])};
+                    state[4] - rate * (axis[2] * q[0] - axis[0] * q[2]),
+                    state[5] - rate * (axis[0] * q[1] - axis[1] * q[0])};
   const Triple sun = {200 - 0.5 * time, 90 + 2 * time, 40 + 0.3 * time};
   const Triple apex = {std::cos(lag) * sun[0] - std::sin(lag) * sun[1],
-                        std::sin(lag) * sun[0] + std::cos(lag) * sun[1], sun[2]};
+                       std::sin(lag) * sun[0] + std::cos(lag) * sun[1], sun[2]};
   const double radius = std::sqrt(inner(q, q));
   const double cosine = inner(q, apex) / radius / std::sqrt(inner(apex, apex));
   // cos^4(psi / 2) by the angle itself.
   const double bulge = std::pow(std::cos(std::acos(cosine) / 2), 4);
-  // A table that falls by one ratio from node to node is an exponential between them too.
-  const double height = (radius - 1) * 6378.137;
+  const double height = (radius - 1) * test::air_radius_km;
   const double least = 2 * std::exp(-1.1 * (height - 100) / 50);
   const double greatest = 3 * std::exp(-0.8 * (height - 100) / 50);
   const double rho = 1.5 * (least + (greatest - least) * bulge);

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/fields/atmosphere_field.hpp"
 #include "dynamics/fields/point_mass_field.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
@@ -14,27 +13,21 @@
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "support/errors.hpp"
+#include "support/exponential_air.hpp"
 #include "support/flow.hpp"
 #include "support/turning_axes.hpp"
 
 namespace hamjet {
 namespace {
 
-constexpr double radius_km = 6378.137;
+constexpr double radius_km = test::air_radius_km;
 constexpr double scale_height_km = 50;
 
-/// An exponential atmosphere: a table that falls by one ratio from node to node is one between
-/// them too. `density` is that of 400 km, times the unit of length.
+/// An exponential atmosphere; `density` is that of 400 km, times the unit of length.
 TurningAtmosphere exponential(double density, double rate) {
-  DensityTable table;
-  for (int k = 0; k <= 8; ++k) {
-    const double height = 200 + 50.0 * k;
-    table.heights_km.push_back(height);
-    table.densities.push_back(std::exp(-(height - 400) / scale_height_km));
-  }
   TurningAtmosphere air;
-  air.least = std::make_shared<const AtmosphereField>(table, radius_km, density,
-                                                      ReferenceEllipsoid{radius_km, 0});
+  air.least =
+      test::exponential_air(200, density * std::exp(200 / scale_height_km), scale_height_km);
   air.rate = rate;
   return air;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/detail/dynamics/time_function.hpp"
+#include "support/moving_fields.hpp"
 
 // Functions of the time for systems about a body that turns, by closed forms.
 
@@ -29,22 +30,14 @@ class TurningAxes final : public TimeFunction {
     using std::cos;
     using std::sin;
     const Real ct = cos(Real(tilt_)), st = sin(Real(tilt_));
-    // Derivatives of sine and cosine of rate * t.
-    const Real angle = Real(rate_) * t;
-    const Real waves[4] = {cos(angle), -sin(angle), -cos(angle), sin(angle)};
-    Real power = 1;
-    for (int k = 0; k <= degree; ++k) {
-      const Real c = waves[k % 4] * power;
-      const Real s = waves[(k + 3) % 4] * power;
-      const Real axis[3] = {0, -st, ct};
+    const auto size = static_cast<std::size_t>(degree) + 1;
+    std::vector<Real> turning(2 * size);
+    Turning(rate_).expand(t, degree, turning.data());
+    for (std::size_t k = 0; k < size; ++k) {
+      const Real c = turning[k], s = turning[size + k], one = k == 0 ? 1 : 0;
       // Rows: the turned x axis, the turned y' = (0, ct, st), and the axis itself.
-      const Real rows[9] = {c, s * ct, s * st, -s, c * ct, c * st, 0, axis[1], axis[2]};
-      for (std::size_t i = 0; i < 9; ++i) {
-        const bool is_axis = i >= 6;
-        out[i * static_cast<std::size_t>(degree + 1) + static_cast<std::size_t>(k)] =
-            is_axis && k > 0 ? Real(0) : rows[i];
-      }
-      power *= Real(rate_) / Real(k + 1);
+      const Real rows[9] = {c, s * ct, s * st, -s, c * ct, c * st, 0, -st * one, ct * one};
+      for (std::size_t i = 0; i < 9; ++i) out[i * size + k] = rows[i];
     }
   }
 

@@ -1,4 +1,4 @@
-#include "../command_test.hpp"
+#include "refused_scene.hpp"
 
 // Scenes with drag with one mistake each.
 
@@ -26,7 +26,7 @@ order = 1
 duration_s = 600
 )";
 
-using BadDrag = CommandTest;
+using BadDrag = RefusedScene;
 
 TEST_F(BadDrag, EachIsOneLine) {
   struct Mistake {
@@ -56,10 +56,7 @@ TEST_F(BadDrag, EachIsOneLine) {
        {"19", "kinds", "despite_drag"}}};
   for (const Mistake& mistake : mistakes) {
     SCOPED_TRACE(mistake.to);
-    write("bad.toml", changed(drag_scene, mistake.from, mistake.to));
-    for (const char* command : {"run", "check"}) {
-      expect_error({command, "bad.toml"}, 3, mistake.words);
-    }
+    expect_refused(drag_scene, mistake.from, mistake.to, mistake.words);
   }
 }
 

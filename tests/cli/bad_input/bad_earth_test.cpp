@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "../command_test.hpp"
+#include "refused_scene.hpp"
 
 // Scenes about the real Earth with one mistake each, and messages in axes that turn. Lines and
 // columns are those of earth_scene, counted by hand.
@@ -54,7 +54,7 @@ string ephemeris_message(const string& frame, const string& time_system = "UTC")
          "2023-05-16T06:00:00 6892.137 0 0 0 1 7.5\n";
 }
 
-class BadEarth : public CommandTest {
+class BadEarth : public RefusedScene {
  protected:
   struct Mistake {
     string from;
@@ -65,10 +65,7 @@ class BadEarth : public CommandTest {
   void expect_each_refused(const std::vector<Mistake>& mistakes) const {
     for (const Mistake& mistake : mistakes) {
       SCOPED_TRACE(mistake.to);
-      write("bad.toml", changed(earth_scene, mistake.from, mistake.to));
-      for (const char* command : {"run", "check"}) {
-        expect_error({command, "bad.toml"}, 3, mistake.words);
-      }
+      expect_refused(earth_scene, mistake.from, mistake.to, mistake.words);
     }
   }
 };

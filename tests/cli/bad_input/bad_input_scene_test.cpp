@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "../command_test.hpp"
+#include "refused_scene.hpp"
 
 // Scenes with one mistake each, for the rows of the table at the head of bad_input_test.cpp that
 // the tests there leave open. Lines are those of small_scene, counted by hand.
@@ -18,17 +18,12 @@ struct SceneMistake {
   int exit_code = 3;
 };
 
-class BadScene : public CommandTest {
+class BadScene : public RefusedScene {
  protected:
   void expect_each_refused(const std::vector<SceneMistake>& mistakes, const string& scene) const {
     for (const SceneMistake& mistake : mistakes) {
       SCOPED_TRACE(mistake.row);
-      write("bad.toml", changed(scene, mistake.from, mistake.to));
-      std::vector<string> words = mistake.words;
-      words.emplace_back("bad.toml:");
-      for (const char* command : {"run", "check"}) {
-        expect_error({command, "bad.toml"}, mistake.exit_code, words);
-      }
+      expect_refused(scene, mistake.from, mistake.to, mistake.words, mistake.exit_code);
     }
   }
 };
