@@ -1,6 +1,6 @@
 # Writes a test of ctest for every suite of a test program, whose tests run in one process:
 # cmake -DLAYER=maps -DPROGRAM=FILE -DRUNNER=run_suite.sh -DOUTPUT=FILE -P list_suites.cmake
-# The test is LAYER.SUITE; a suite whose name ends in AtLength has the label long.
+# The test is LAYER.SUITE; a suite whose name ends in AtLength has the label long, and begins first.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE lines
   COMMAND_ERROR_IS_FATAL ANY TIMEOUT 60)
 string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." lines "${lines}")
@@ -22,7 +22,7 @@ foreach(suite ${suites})
   list(JOIN filter_${suite} ":" filter)
   set(properties "TIMEOUT 1800 SKIP_RETURN_CODE 77")
   if(suite MATCHES "AtLength$")
-    string(APPEND properties " LABELS long")
+    string(APPEND properties " LABELS long COST 200")
   endif()
   string(APPEND script "add_test([[${LAYER}.${suite}]] [[${RUNNER}]] [[${PROGRAM}]] [[${filter}]])\n"
     "set_tests_properties([[${LAYER}.${suite}]] PROPERTIES ${properties})\n")
