@@ -134,6 +134,7 @@ DynamicalSystem with_force(const DynamicalSystem& system, const ForceFunction& f
   DynamicalSystem result =
       make_system(system.name, system.hamiltonian, std::move(field), system.parameters);
   result.waves_on_a_circle = system.waves_on_a_circle;
+  result.break_times = system.break_times;
   result.is_hamiltonian = false;
   return result;
 }
@@ -203,6 +204,7 @@ DynamicalSystem restrict_system(const DynamicalSystem& system, std::span<const s
                   restrict_list(system.vector_field, indices, indices), system.parameters);
   restricted.is_hamiltonian = system.is_hamiltonian;
   restricted.waves_on_a_circle = system.waves_on_a_circle;
+  restricted.break_times = system.break_times;
   if (system.uniform_rotation) {
     UniformRotation rotation{{}, system.uniform_rotation->rate};
     for (const auto& [i, j] : system.uniform_rotation->planes) {

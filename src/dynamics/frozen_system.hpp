@@ -21,6 +21,7 @@ inline SharedSystem frozen_at(const SharedSystem& system, const ClockTime& time)
     frozen.second_order->force = frozen_at(frozen.second_order->force, time);
   }
   frozen.uniform_rotation.reset();
+  frozen.break_times.clear();
   return frozen;
 }
 

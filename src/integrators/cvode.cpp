@@ -17,6 +17,7 @@
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
 #include "series_vector_field.hpp"
+#include "step_ends.hpp"
 #include "step_sequence.hpp"
 
 namespace hamjet {
@@ -38,6 +39,7 @@ class CvodeIntegration {
         settings_(settings),
         statistics_(statistics),
         observer_(observer),
+        ends_(problem),
         name_(method_name(settings.method)),
         field_(problem, name_),
         guard_(problem, settings.tolerance, name_),
@@ -53,7 +55,7 @@ class CvodeIntegration {
     require(CVodeSetUserData(memory_.get(), this));
     require(CVodeSStolerances(memory_.get(), settings.tolerance, settings.tolerance));
     require(CVodeSetMaxHnilWarns(memory_.get(), -1));
-    require(CVodeSetStopTime(memory_.get(), problem.duration));
+    require(CVodeSetStopTime(memory_.get(), ends_.after(0)));
     if (is_adams) {
       nonlinear_solver_.reset(
           sundials::require(SUNNonlinSol_FixedPoint(state_.get(), 0, context_)));
@@ -74,6 +76,9 @@ class CvodeIntegration {
     }
     field_.copy_to(jet_, numbers());
     collect_counts();
+    statistics_.vector_field_evaluations += field_.evaluations();
+    statistics_.series_work = field_.work();
+    if (settings_.counts != nullptr) *settings_.counts = counts_;
     statistics_.wall_seconds = clock_.seconds();
     return std::move(jet_);
   }
@@ -84,7 +89,8 @@ class CvodeIntegration {
   /// One step of CVODE, which stops at the stop time exactly.
   void step() {
     const double before = time_;
-    require(CVode(memory_.get(), problem_.duration, state_.get(), &time_, CV_ONE_STEP));
+    const double end = ends_.after(time_);
+    require(CVode(memory_.get(), end, state_.get(), &time_, CV_ONE_STEP));
     if (time_ == before) {
       // CVODE itself would continue with t + h = t for ever.
       throw Error(
@@ -103,6 +109,15 @@ class CvodeIntegration {
     }
     ++statistics_.steps;
     limit_step_count(name_.c_str(), statistics_.steps, time_, problem_.duration);
+    if (time_ == end && end != problem_.duration) begin_anew();
+  }
+
+  /// Starts at the present time as from the beginning: the polynomials of earlier steps say nothing
+  /// about forces that have no derivatives there.
+  void begin_anew() {
+    collect_counts();
+    require(CVodeReInit(memory_.get(), time_, state_.get()));
+    require(CVodeSetStopTime(memory_.get(), ends_.after(time_)));
   }
 
   /// Records the root mean square that CVODE keeps below 1, multiplied by the tolerance.
@@ -209,16 +224,19 @@ class CvodeIntegration {
     });
   }
 
+  /// Adds CVODE's counts since the start, or since it began anew.
   void collect_counts() {
+    long test_failures = 0;
     long step_failures = 0;
-    require(CVodeGetNumErrTestFails(memory_.get(), &counts_.error_test_failures));
+    long iterations = 0;
+    long failures = 0;
+    require(CVodeGetNumErrTestFails(memory_.get(), &test_failures));
     require(CVodeGetNumStepSolveFails(memory_.get(), &step_failures));
-    require(CVodeGetNonlinSolvStats(memory_.get(), &counts_.nonlinear_iterations,
-                                    &counts_.nonlinear_failures));
-    statistics_.rejected_steps += counts_.error_test_failures + step_failures;
-    statistics_.vector_field_evaluations += field_.evaluations();
-    statistics_.series_work = field_.work();
-    if (settings_.counts != nullptr) *settings_.counts = counts_;
+    require(CVodeGetNonlinSolvStats(memory_.get(), &iterations, &failures));
+    counts_.error_test_failures += test_failures;
+    counts_.nonlinear_iterations += iterations;
+    counts_.nonlinear_failures += failures;
+    statistics_.rejected_steps += test_failures + step_failures;
   }
 
   const FlowProblem<double>& problem_;
@@ -226,6 +244,7 @@ class CvodeIntegration {
   IntegrationStatistics& statistics_;
   const StepObserver<double>& observer_;
   IntegrationClock clock_;
+  StepEnds<double> ends_;
   std::string name_;
   SeriesVectorField<double> field_;
   EnergyGuard<double> guard_;

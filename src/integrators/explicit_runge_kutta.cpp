@@ -16,6 +16,7 @@
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
 #include "series_vector_field.hpp"
+#include "step_ends.hpp"
 #include "step_sequence.hpp"
 
 namespace hamjet {
@@ -123,18 +124,24 @@ class FehlbergIntegration {
     const Real tolerance(*settings_.tolerance);
     Real error = 0;
     ControlledStepper stepper(ErrorChecker(tolerance, error));
+    const StepEnds<Real> ends(problem_);
     Real proposed = first_step();
     while (time_ != problem_.duration) {
-      const Real remaining = problem_.duration - time_;
-      Real h = fit_to_span(proposed, remaining);
+      const Real& end = ends.after(time_);
+      const Real remaining = end - time_;
+      const Real wanted = proposed;
+      Real h = fit_to_span(wanted, remaining);
+      bool is_cut = end != problem_.duration && h != wanted;
       while (true) {
-        if (is_lost_in_rounding(h)) fail_step_size(h);
+        if (is_lost_in_rounding(h, remaining)) fail_step_size(h);
         if (attempt(stepper, h, proposed)) break;
         ++statistics_.rejected_steps;
         h = proposed;
+        is_cut = false;
       }
+      if (is_cut) proposed = proposal_after_cut(proposed, wanted);
       statistics_.record_step_error(static_cast<double>(Real(error * tolerance)));
-      time_ = h == remaining ? problem_.duration : Real(time_ + h);
+      time_ = h == remaining ? end : Real(time_ + h);
       accept();
       limit_step_count(fehlberg_name, statistics_.steps, static_cast<double>(time_), span());
     }
@@ -142,9 +149,9 @@ class FehlbergIntegration {
 
   /// Whether the rounding of the time is more than 1e-4 of a step, so that what depends on the time
   /// would not be that of the step. Beyond a collision steps can stay so short for millions.
-  bool is_lost_in_rounding(const Real& h) const {
+  bool is_lost_in_rounding(const Real& h, const Real& remaining) const {
     using std::abs;
-    if (h == problem_.duration - time_) return time_ + h == time_;
+    if (h == remaining) return time_ + h == time_;
     return !(abs(h) > 1e4 * std::numeric_limits<Real>::epsilon() * abs(time_));
   }
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "step_ends.hpp"
+
 namespace hamjet {
 
 /// The largest fraction that the last two powers may have; the decay of the powers need not be
@@ -17,12 +19,27 @@ TaylorFlow::TaylorFlow(SharedSystem system)
       highest_power_(system_->vector_field.has_fields() ? highest_power_of_fields : order),
       field_(system_->vector_field, highest_power_) {}
 
-void TaylorFlow::set_state(std::size_t lane, const ClockTime& time, std::span<const double> state) {
-  set_state(lane, time.in<double>(), state);
+void TaylorFlow::set_state(std::size_t lane, const ClockTime& time, std::span<const double> state,
+                           double direction) {
+  set_state(lane, time.in<double>(), state, direction);
 }
 
-void TaylorFlow::set_state(std::size_t lane, double time, std::span<const double> state) {
-  clock_.set_lane(static_cast<int>(lane), time);
+void TaylorFlow::set_state(std::size_t lane, double time, std::span<const double> state,
+                           double direction) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double smooth_for = infinity;
+  double clock = time;
+  for (const double edge : system_->break_times) {
+    const double ahead = (edge - time) * direction;
+    if (std::abs(ahead) <= StepEnds<double>::nearness * std::abs(time)) {
+      // Functions of the time are those of the side to which the flight goes on.
+      clock = std::nextafter(edge, direction * infinity);
+    } else if (ahead > 0) {
+      smooth_for = std::min(smooth_for, ahead);
+    }
+  }
+  clock_.set_lane(static_cast<int>(lane), clock);
+  smooth_for_[lane] = smooth_for;
   for (std::size_t i = 0; i < state.size(); ++i) {
     field_.input(i)->set_lane(static_cast<int>(lane), state[i]);
   }
@@ -121,7 +138,11 @@ void TaylorFlow::expand(std::span<const double> times) {
   }
 }
 
-double TaylorFlow::reach(std::size_t lane) const {
+double TaylorFlow::reach(std::size_t lane, double share) const {
+  return std::min(share * reach_of_series(lane), smooth_for_[lane]);
+}
+
+double TaylorFlow::reach_of_series(std::size_t lane) const {
   double reach = std::numeric_limits<double>::infinity();
   for (const bool is_of_momenta : {false, true}) {
     // With a size of 0 there is no scale for the powers.
@@ -138,7 +159,8 @@ double TaylorFlow::reach(std::size_t lane) const {
 }
 
 double TaylorFlow::within_reach(std::size_t lane, double time) const {
-  if (std::abs(time) <= proved_.lane(static_cast<int>(lane))) return time;
+  const double proved = std::min(proved_.lane(static_cast<int>(lane)), smooth_for_[lane]);
+  if (std::abs(time) <= proved) return time;
   const double longest = reach(lane);
   return std::clamp(time, -longest, longest);
 }
@@ -176,7 +198,8 @@ void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
   const auto state = [&](std::size_t lane) { return states.subspan(lane * size, size); };
   // Lanes without a state of their own repeat the first one, so that they are finite.
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    set_state(lane, start_time, state(lane < times.size() ? lane : 0));
+    const std::size_t own = lane < times.size() ? lane : 0;
+    set_state(lane, start_time, state(own), std::copysign(1.0, times[own]));
   }
   const auto is_moving = [](double time) { return time != 0; };
   for (int count = 0; std::any_of(left.begin(), left.end(), is_moving); ++count) {
@@ -184,14 +207,16 @@ void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
     for (std::size_t lane = 0; lane < times.size(); ++lane) {
       if (left[lane] == 0) continue;
       const double step = within_reach(lane, left[lane]);
-      if (!(std::abs(step) > least_part * std::abs(left[lane])) || count == most_expansions) {
+      const bool is_long = std::abs(step) > least_part * std::abs(left[lane]);
+      if (!(is_long || ends_at_break(lane, step)) || count == most_expansions) {
         std::fill_n(state(lane).begin(), size, std::numeric_limits<double>::quiet_NaN());
         left[lane] = 0;
         continue;
       }
       evaluate(lane, step, state(lane));
       left[lane] -= step;
-      set_state(lane, start_time + (times[lane] - left[lane]), state(lane));
+      set_state(lane, start_time + (times[lane] - left[lane]), state(lane),
+                std::copysign(1.0, times[lane]));
     }
   }
 }

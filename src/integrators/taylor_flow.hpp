@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -36,8 +37,10 @@ class TaylorFlow {
   explicit TaylorFlow(SharedSystem system);
 
   /// Sets the state, of 2n numbers, about which a lane is to be expanded, and the system's clock at
-  /// it.
-  void set_state(std::size_t lane, const ClockTime& time, std::span<const double> state);
+  /// it. At a time at which the forces have no derivatives, the direction, 1 or -1, tells on which
+  /// side the flight goes on.
+  void set_state(std::size_t lane, const ClockTime& time, std::span<const double> state,
+                 double direction = 1);
   /// Expands the flow of all lanes: to the highest power, or, for each of the first lanes, to the
   /// power that leaves out no more than rounding at its time in `times`. The power is chosen lane
   /// by lane, so that no digit of a lane depends on the others.
@@ -53,8 +56,13 @@ class TaylorFlow {
     return field_.input(component)[power].lane(static_cast<int>(lane));
   }
   /// The time, forwards and backwards, within which a lane's polynomial leaves out no more than
-  /// rounding; 0 if the vector field is not finite.
-  double reach(std::size_t lane) const;
+  /// rounding; 0 if the vector field is not finite. Of that only a share is taken, if asked for. In
+  /// the lane's direction it ends where the forces have no derivatives.
+  double reach(std::size_t lane, double share = 1) const;
+  /// Whether a step of a lane ends where the forces have no derivatives; it may be short.
+  bool ends_at_break(std::size_t lane, double step) const {
+    return std::abs(step) >= smooth_for_[lane];
+  }
   /// The time, limited to the reach of the lane's polynomial.
   double within_reach(std::size_t lane, double time) const;
   /// The state of a lane at a time, counted from the state about which it was expanded.
@@ -69,7 +77,9 @@ class TaylorFlow {
  private:
   /// As `advance`, for no more states than lanes.
   void advance_lanes(std::span<double> states, double start_time, std::span<const double> times);
-  void set_state(std::size_t lane, double time, std::span<const double> state);
+  void set_state(std::size_t lane, double time, std::span<const double> state, double direction);
+  /// The reach of a lane's polynomial alone.
+  double reach_of_series(std::size_t lane) const;
 
   using Lanes = Pack<double, static_cast<int>(lanes)>;
 
@@ -83,6 +93,8 @@ class TaylorFlow {
   int highest_power_;
   TimeExpansion<Lanes, double> field_;
   Lanes clock_;  ///< the system's clock at the states
+  /// The times, in the lanes' directions, for which the forces have derivatives.
+  std::array<double, lanes> smooth_for_{};
   /// The lanes' units. Coefficients belong to powers (t / unit)^k, so that in any units of the
   /// system they are about as large as the state, and their squares neither vanish nor overflow.
   Lanes units_ = Lanes(1);

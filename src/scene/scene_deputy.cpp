@@ -10,7 +10,7 @@ const TableDescription& deputy_table() {
                         {{"spacecraft",
                           form::table(spacecraft_table()),
                           absent::other("like the chief"),
-                          "what the air does to the deputy",
+                          "what air and light do to the deputy",
                           {orbits}}}}),
       "The second satellite at the start: relative to the chief, or by its own orbit in the keys "
       "of "
@@ -28,7 +28,9 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
   settings.start =
       read_relative_state(deputy, nominal, settings.frame,
                           is_anywhere ? DeputyPlace::anywhere : DeputyPlace::near_chief);
-  settings.drag_m2_kg = read_spacecraft(deputy, scene.system);
+  const SpacecraftSettings spacecraft = read_spacecraft(deputy, scene.system);
+  settings.drag_m2_kg = spacecraft.drag_m2_kg;
+  settings.radiation_m2_kg = spacecraft.radiation_m2_kg;
   return settings;
 }
 

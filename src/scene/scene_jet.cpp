@@ -110,7 +110,7 @@ const TableDescription& jet_table() {
              "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model "
              "`own` "
              "by its own names, without choice the states of a vector field; with an atmosphere "
-             "also `drag_m2_kg` or `density_factor`"},
+             "also `drag_m2_kg` or `density_factor`, with radiation `radiation_m2_kg`"},
             {"duration_s", form::number(), other_duration, "negative is backwards"},
             {"duration_canonical", form::number(), other_duration, "the same"},
             {"arcs",

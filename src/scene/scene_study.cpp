@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "../studies/descriptions/system_description.hpp"
+#include "../studies/sunlight.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
 #include "document/scene_document.hpp"
@@ -64,8 +65,8 @@ TableDescription flow_jet_top() {
         optional_table("checks", checks_table(), "all on", "self-checks"),
         optional_table("compare", compare_table(), "the defaults", "of `hamjet compare`"),
         optional_table("figure", figure_table(), none, "`figure.svg`, with its numbers in CSV"),
-        optional_table("spacecraft", spacecraft_table(), "no drag",
-                       "what the air does to the chief"),
+        optional_table("spacecraft", spacecraft_table(), "no drag, no radiation",
+                       "what air and light do to the chief"),
         optional_table("deputy", deputy_table(), none, "of `hamjet motion`, `transfer` and `eval`"),
         optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
         optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),
@@ -224,6 +225,7 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
         scene.title = title;
       },
       study);
+  if (Scene* const scene = std::get_if<Scene>(&study)) light_nominal(*scene);
   return study;
 }
 

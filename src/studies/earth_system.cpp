@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "../astronomy/sunlight.hpp"
 #include "../dynamics/fields/atmosphere_field.hpp"
 #include "../dynamics/fields/exponential_atmosphere.hpp"
 #include "../dynamics/fields/harris_priester_table.hpp"
 #include "../dynamics/fields/point_mass_field.hpp"
 #include "../dynamics/fields/spherical_harmonic_field.hpp"
-#include "hamjet/astronomy/body_position.hpp"
 #include "hamjet/astronomy/earth_rotation.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
 #include "hamjet/dynamics/spacecraft_forces.hpp"
@@ -69,13 +69,49 @@ constexpr double earth_rate = 7.292115e-5;
 /// The apex of the bulge follows the Sun by two hours (Montenbruck and Gill, section 3.5).
 constexpr double bulge_lag = std::numbers::pi / 6;
 
+/// The pressure of the Sun's light on what absorbs it, at one astronomical unit, N/m^2: the nominal
+/// total solar irradiance of 1361 W/m^2 (IAU 2015 Resolution B3) over the speed of light.
+constexpr double pressure_of_sun = 1361.0 / 299792458;
+constexpr double astronomical_unit_km = 149597870.7;
+
+/// Canonical units, and the times between which bodies are to be known.
+struct EarthClock {
+  EarthClock(const SystemSettings& settings, double canonical_radius)
+      : length_km(Extended(settings.radius_km) / canonical_radius),
+        time_s(sqrt(length_km * length_km * length_km / settings.mu_km3_s2)),
+        epoch{parse_epoch(settings.earth.value().epoch_tt).value()},
+        first(convert<double>(Extended(settings.earth->first_s) / time_s)),
+        last(convert<double>(Extended(settings.earth->last_s) / time_s)) {}
+
+  std::shared_ptr<const BodyPosition> position_of(PerturbingBody body) const {
+    return std::make_shared<const BodyPosition>(body, epoch, time_s, convert<double>(length_km),
+                                                first, last);
+  }
+
+  Extended length_km;
+  Extended time_s;
+  Instant epoch;
+  double first;
+  double last;
+};
+
+/// The potential whose force on 1 m^2/kg is the pressure of the Sun's light, in canonical units.
+std::shared_ptr<const PointMassField> pressure_potential(const EarthClock& clock) {
+  const double length_km = convert<double>(clock.length_km);
+  const double time_s = convert<double>(clock.time_s);
+  const double distance = astronomical_unit_km / length_km;
+  const double acceleration = pressure_of_sun * time_s * time_s / (1000 * length_km);
+  return std::make_shared<const PointMassField>(acceleration * distance * distance);
+}
+
 }  // namespace
 
 const std::vector<EarthParameter>& earth_parameters() {
   static const std::vector<EarthParameter> parameters = {
       {drag_parameter, [](const EarthSettings& e) { return e.drag_m2_kg; }},
       {density_factor_name,
-       [](const EarthSettings& e) { return e.atmosphere ? e.atmosphere->density_factor : 1; }}};
+       [](const EarthSettings& e) { return e.atmosphere ? e.atmosphere->density_factor : 1; }},
+      {radiation_parameter, [](const EarthSettings& e) { return e.radiation_m2_kg; }}};
   return parameters;
 }
 
@@ -99,33 +135,40 @@ std::vector<double> parameter_values(const SystemSettings& settings) {
   return values;
 }
 
+std::shared_ptr<const BodyPosition> position_of_sun(const SystemSettings& settings,
+                                                    double canonical_radius) {
+  return EarthClock(settings, canonical_radius).position_of(PerturbingBody::sun);
+}
+
 DynamicalSystem earth_system(const SystemSettings& settings, double canonical_radius) {
   const EarthSettings& earth = settings.earth.value();
-  const Extended length_km = Extended(settings.radius_km) / canonical_radius;
-  const Extended time_s = sqrt(length_km * length_km * length_km / settings.mu_km3_s2);
-  const Instant epoch{parse_epoch(earth.epoch_tt).value()};
-  const double first = convert<double>(Extended(earth.first_s) / time_s);
-  const double last = convert<double>(Extended(earth.last_s) / time_s);
+  const EarthClock clock(settings, canonical_radius);
+  const Extended& length_km = clock.length_km;
+  const Extended& time_s = clock.time_s;
   GravityOfTurningBody gravity;
   gravity.potential =
       std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, coefficients_of(earth));
-  gravity.axes =
-      std::make_shared<const EarthRotation>(epoch, time_s, first, last, earth.orientation);
-  const auto position_of = [&](PerturbingBody body) {
-    return std::make_shared<const BodyPosition>(body, epoch, time_s, convert<double>(length_km),
-                                                first, last);
-  };
+  gravity.axes = std::make_shared<const EarthRotation>(clock.epoch, time_s, clock.first, clock.last,
+                                                       earth.orientation);
   const auto add = [&](std::shared_ptr<const BodyPosition> position, double mu_km3_s2) {
     const double mu = mu_km3_s2 / settings.mu_km3_s2;
     gravity.others.push_back({mu, std::make_shared<const PointMassField>(mu), std::move(position)});
   };
-  // What attracts and what makes the air bulge is one function, so that it is asked once a stage.
+  // What attracts, shines and makes the air bulge is one function, asked once a stage.
   std::shared_ptr<const BodyPosition> sun;
-  if (earth.has_sun || bulges(earth)) sun = position_of(PerturbingBody::sun);
+  if (earth.has_sun || earth.radiation || bulges(earth)) {
+    sun = clock.position_of(PerturbingBody::sun);
+  }
   if (earth.has_sun) add(sun, earth.mu_sun_km3_s2);
-  if (earth.has_moon) add(position_of(PerturbingBody::moon), earth.mu_moon_km3_s2);
+  if (earth.has_moon) add(clock.position_of(PerturbingBody::moon), earth.mu_moon_km3_s2);
   gravity.parameters = earth.parameters.size();
-  const DynamicalSystem system = earth_gravity(gravity);
+  if (earth.radiation) {
+    gravity.radiation =
+        RadiationPressure{pressure_potential(clock), sun, earth.sunlight,
+                          coefficient(earth, radiation_parameter, earth.radiation_m2_kg)};
+  }
+  DynamicalSystem system = earth_gravity(gravity);
+  if (earth.radiation && earth.sunlight) system.break_times = earth.sunlight->edges();
   if (!earth.atmosphere) return system;
   const AtmosphereSettings& air = *earth.atmosphere;
   // Densities in kg/m^3 times metres a unit of length, so that B in m^2/kg gives canonical forces.

@@ -77,6 +77,13 @@ ManyFlows study_many_flows(const Scene& scene, std::string_view label,
   if (scene.precision == Precision::extended) {
     throw Error(ErrorKind::scene, fmt::format("{}: precision: is extended, must be double", who));
   }
+  if (scene.system.earth && scene.system.earth->sunlight) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{}: system.shadow: is that of one orbit, got orbits that each have their "
+                    "own, must be \"none\"",
+                    who));
+  }
   ManyFlows flows;
   flows.scene = scene;
   flows.settings = gauss_run_of(scene, label, who, "lanes for orbits");

@@ -53,6 +53,8 @@ class KeyText {
       }
     }
   }
+  /// It follows from the other settings and the nominal.
+  void write(const std::shared_ptr<const Sunlight>&) {}
   /// The checksum beside it stands for it.
   void write(const std::shared_ptr<const EarthOrientation>&) {}
   template <class Value>
@@ -100,7 +102,8 @@ std::string operations_text(const OperationList& list) {
 std::string system_text(const DynamicalSystem& system) {
   std::string text = operations_text(system.hamiltonian) + "; " +
                      operations_text(system.vector_field) +
-                     fmt::format("; {} waves", system.waves_on_a_circle);
+                     fmt::format("; {} waves", system.waves_on_a_circle) +
+                     fmt::format("; breaks {}", fmt::join(system.break_times, " "));
   for (const auto& [i, j] : system.rotated_planes) text += fmt::format("; turned {} {}", i, j);
   if (!system.second_order) return text;
   text += "; " + operations_text(system.second_order->force) + "; inverse mass";

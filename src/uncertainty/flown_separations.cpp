@@ -77,7 +77,8 @@ class Pairs {
   /// Advances as far as the expansions of both spacecraft reach, and returns the time advanced.
   double advance(std::size_t pair, double left, double& least) {
     const double step = std::min({flow_.reach(2 * pair), flow_.reach(2 * pair + 1), left});
-    if (!(step > least_part * (problem_->to - problem_->from))) {
+    const bool is_long = step > least_part * (problem_->to - problem_->from);
+    if (!(is_long || flow_.ends_at_break(2 * pair, step))) {
       throw Error(ErrorKind::numerical,
                   "encounter: a flight with a random deviation ended in the centre; the covariance "
                   "is too large for its orbit");

@@ -139,7 +139,8 @@ class Ellipsoid {
       }
       flow.expand();
       const double step = std::min({flow.reach(0), flow.reach(1), flow.reach(2), left});
-      if (!(step > 1e-9 * (problem_->to - problem_->from))) {
+      const bool is_long = step > 1e-9 * (problem_->to - problem_->from);
+      if (!(is_long || flow.ends_at_break(0, step))) {
         throw Error(ErrorKind::numerical,
                     "keep-out: the flight with the told deviation ended in the centre");
       }

@@ -57,6 +57,7 @@ class StudyText {
   }
   /// The checksum of its file stands for it.
   void add(const std::shared_ptr<const EarthOrientation>&) {}
+  void add(const std::shared_ptr<const Sunlight>&) {}
   template <class... Values>
   void add_all(const Values&... values) {
     (add(values), ...);

@@ -67,6 +67,9 @@ struct DynamicalSystem {
   /// The rotation of which the dependence on the time consists, where that is known;
   /// with_uniform_rotation declares it.
   std::optional<UniformRotation> uniform_rotation;
+  /// The times of the clock, ascending, at which the forces have no derivatives, such as the edges
+  /// of a shadow. Methods that choose their steps end one at each of them; equal steps do not.
+  std::vector<double> break_times;
 
   /// The length of a state, 2n + k.
   std::size_t dimension() const noexcept { return 2 * degrees_of_freedom + parameters; }

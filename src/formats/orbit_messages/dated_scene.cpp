@@ -24,11 +24,16 @@ std::string ascii(std::string text) {
 std::string earth_text(const SystemSettings& system) {
   const EarthSettings& earth = *system.earth;
   return fmt::format(
-      "Model: {}, GM = {} km**3/s**2, radius {} km, {} to {} x {}{}{}; no drag, no radiation "
-      "pressure, no tides, no relativity",
+      "Model: {}, GM = {} km**3/s**2, radius {} km, {} to {} x {}{}{}; {}, {}, no tides, "
+      "no relativity",
       model_name(system.model), system.mu_km3_s2, system.radius_km,
       system.gravity_file->model_name.empty() ? "the field" : system.gravity_file->model_name,
-      earth.degree, earth.order, earth.has_sun ? ", Sun" : "", earth.has_moon ? ", Moon" : "");
+      earth.degree, earth.order, earth.has_sun ? ", Sun" : "", earth.has_moon ? ", Moon" : "",
+      earth.atmosphere ? fmt::format("drag, density {}", name_of(earth.atmosphere->model))
+                       : "no drag",
+      earth.radiation
+          ? fmt::format("radiation pressure, shadow {}", name_of(earth.radiation->shadow))
+          : "no radiation pressure");
 }
 
 std::string model_text(const SystemSettings& system) {

@@ -11,6 +11,7 @@
 #include "../compensated_addition.hpp"
 #include "../integration_clock.hpp"
 #include "../series_step_control.hpp"
+#include "../step_ends.hpp"
 #include "../step_sequence.hpp"
 #include "../summed_jet.hpp"
 #include "end_map.hpp"
@@ -43,6 +44,7 @@ class GaussIntegrator {
         statistics_(statistics),
         order_(working_order(problem)),
         start_time_(problem.start_time.template in<Real>()),
+        ends_(problem),
         stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
                 problem.space, order_),
         point_(problem.system->evaluated_list(), problem.space, 0),
@@ -166,12 +168,16 @@ class GaussIntegrator {
 
   void step() {
     auto mark = profile_mark();
-    const Real remaining = (problem_.duration - at_.time) + at_.lost_time;
+    const Real& end = settings_.step ? problem_.duration : ends_.after(at_.time);
+    const Real remaining = (end - at_.time) + at_.lost_time;
     Real h = at_.proposed;
+    Real wanted = h;
     double growth = 1;
     while (true) {
-      if (!settings_.step)
-        h = fit_to_span(control_.sampling_step(h, *problem_.system, jet_.start()), remaining);
+      if (!settings_.step) {
+        wanted = control_.sampling_step(h, *problem_.system, jet_.start());
+        h = fit_to_span(wanted, remaining);
+      }
       if (!is_finite(h) || at_.time + h == at_.time) {
         throw Error(
             ErrorKind::numerical,
@@ -229,8 +235,14 @@ class GaussIntegrator {
     } else {
       // Without compensation the rounding of thousands of steps would miss the end of the duration.
       add_compensated(at_.time, at_.lost_time, h);
-      if (h == remaining) at_.time = problem_.duration;
+      if (h == remaining) {
+        at_.time = end;
+        at_.lost_time = 0;
+      }
       at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
+      if (end != problem_.duration && h != wanted) {
+        at_.proposed = proposal_after_cut(at_.proposed, wanted);
+      }
       limit_step_count("Gauss", at_.taken, static_cast<double>(at_.time),
                        static_cast<double>(problem_.duration));
     }
@@ -329,6 +341,7 @@ class GaussIntegrator {
   IntegrationClock clock_;
   int order_;
   Real start_time_;
+  StepEnds<Real> ends_;
   StageSlopes<Real, Lanes> stages_;
   SliceEvaluator<Real, Real> point_;  ///< the vector field at one point
   std::optional<EndMap<Real, Lanes>> end_map_;

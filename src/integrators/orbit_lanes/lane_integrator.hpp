@@ -11,6 +11,7 @@
 
 #include "../compensated_addition.hpp"
 #include "../gauss/gauss_tableau.hpp"
+#include "../step_ends.hpp"
 #include "../step_sequence.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "lane_jets.hpp"
@@ -49,6 +50,7 @@ class LaneIntegrator {
                  int controlled_order)
       : start_time_(problem.start_time.in<double>()),
         duration_(problem.duration),
+        ends_(problem),
         settings_(settings),
         order_(working_order(problem)),
         stages_(*problem.system, gauss_tableau(static_cast<std::size_t>(settings.stages)),
@@ -85,7 +87,8 @@ class LaneIntegrator {
     double time = 0;
     double lost_time = 0;  ///< see add_compensated
     double proposed = 0;
-    double step = 0;  ///< the step that is being tried
+    double wanted = 0;  ///< the step that was to be tried, before an end cut it
+    double step = 0;    ///< the step that is being tried
     double guessed_from = 0;
     Guess guess = Guess::none;
     long remaining_steps = 0;  ///< for fixed steps
@@ -201,11 +204,11 @@ class LaneIntegrator {
     for (std::size_t k = 0; k < orbit_lanes; ++k) {
       Lane& lane = lanes_[k];
       if (!is_at_work(k)) continue;
-      const double remaining = (duration_ - lane.time) + lane.lost_time;
       double h = lane.proposed;
       if (!settings_.step) {
         if (std::abs(h) > longest[k]) h = std::copysign(longest[k], h);
-        h = fit_to_span(h, remaining);
+        lane.wanted = h;
+        h = fit_to_span(h, (ends_.after(lane.time) - lane.time) + lane.lost_time);
       }
       // A collision or another singularity lies ahead.
       if (lane.time + h == lane.time) lane.has_failed = true;
@@ -259,7 +262,6 @@ class LaneIntegrator {
   void accept(std::size_t k, double error) {
     Lane& lane = lanes_[k];
     IntegrationStatistics& statistics = lane.statistics;
-    const double remaining = (duration_ - lane.time) + lane.lost_time;
     lane.guess = Guess::last_step;
     lane.guessed_from = lane.step;
     ++statistics.steps;
@@ -276,9 +278,17 @@ class LaneIntegrator {
     statistics.record_step_error(error);
     const double growth = control_.rule().step_factor(error, lane.tolerance) *
                           control_.rule().time_scale_ratio(control_.measures(k));
+    const double stop = ends_.after(lane.time);
+    const double remaining = (stop - lane.time) + lane.lost_time;
     add_compensated(lane.time, lane.lost_time, lane.step);
-    if (lane.step == remaining) lane.time = duration_;
+    if (lane.step == remaining) {
+      lane.time = stop;
+      lane.lost_time = 0;
+    }
     lane.proposed = lane.step * std::clamp(growth, 0.1, 4.0);
+    if (stop != duration_ && lane.step != lane.wanted) {
+      lane.proposed = proposal_after_cut(lane.proposed, lane.wanted);
+    }
     if (statistics.steps >= most_steps) lane.has_failed = true;
   }
 
@@ -300,6 +310,7 @@ class LaneIntegrator {
 
   double start_time_;
   double duration_;
+  StepEnds<double> ends_;
   GaussSettings settings_;
   int order_;
   LaneStages stages_;

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <initializer_list>
+#include <string>
 
 #include "../../studies/earth_system.hpp"
 #include "../../text/scene_message.hpp"
@@ -11,126 +12,184 @@
 namespace hamjet::io {
 namespace {
 
-/// C_D A / m of real spacecraft: from 0.0003 m^2/kg (a sphere of lead, LARES) to some 20 (a
+/// A coefficient of a spacecraft, and the keys that tell it: itself, or its factor beside mass and
+/// area.
+struct CoefficientKeys {
+  std::string_view itself;
+  std::string_view factor;
+  std::string_view own_area;  ///< in place of area_m2; empty if there is none
+  double usual_factor;
+  std::string_view symbol;
+  double least;  ///< of usual spacecraft
+  double most;
+};
+
+/// Real spacecraft have C_D A / m from 0.0003 m^2/kg (a sphere of lead, LARES) to some 20 (a
 /// balloon, Echo).
-constexpr double least_drag_m2_kg = 2e-4;
-constexpr double most_drag_m2_kg = 50;
+constexpr CoefficientKeys drag_keys = {
+    "drag_m2_kg", "drag_coefficient", "", usual_drag_coefficient, "C_D A / m", 2e-4, 50};
+/// From spheres of lead to solar sails; balloons have more.
+constexpr CoefficientKeys radiation_keys = {"radiation_m2_kg",
+                                            "reflection_coefficient",
+                                            "sunlit_area_m2",
+                                            usual_reflection_coefficient,
+                                            "C_R A / m",
+                                            1e-4,
+                                            1};
 
-void warn_of_unit(const TableReader& table, std::string_view key, double drag_m2_kg) {
-  if (drag_m2_kg == 0 || (drag_m2_kg >= least_drag_m2_kg && drag_m2_kg <= most_drag_m2_kg)) return;
-  table.warn(key, fmt::format("C_D A / m of no spacecraft, got {:.4g} m^2/kg, should be from {} to "
-                              "{}; is the area in cm^2, or the coefficient kg/m^2?",
-                              drag_m2_kg, least_drag_m2_kg, most_drag_m2_kg));
+void warn_of_unit(const TableReader& table, std::string_view key, const CoefficientKeys& keys,
+                  double value) {
+  if (value == 0 || (value >= keys.least && value <= keys.most)) return;
+  table.warn(key,
+             fmt::format("{} of hardly any spacecraft, got {:.4g} m^2/kg, should be from {} to "
+                         "{}; is the area in cm^2, or the coefficient kg/m^2?",
+                         keys.symbol, value, keys.least, keys.most));
 }
 
-double read_drag_coefficient(const TableReader& table) {
-  constexpr std::string_view parts[] = {"mass_kg", "area_m2", "drag_coefficient"};
-  if (table.has("drag_m2_kg")) {
-    for (const std::string_view part : parts) {
-      if (!table.has(part)) continue;
-      table.fail(part, fmt::format("given twice, got {} beside drag_m2_kg, must be left out, or "
-                                   "drag_m2_kg",
-                                   table.found(part)));
-    }
-    const double drag = table.number("drag_m2_kg");
-    if (drag < 0) {
-      table.fail("drag_m2_kg", fmt::format("negative, got {}, must be at least 0", drag));
-    }
-    warn_of_unit(table, "drag_m2_kg", drag);
-    return drag;
+/// The forces that act on a spacecraft by its surface.
+struct SurfaceForces {
+  bool has_drag = false;
+  bool has_radiation = false;
+
+  explicit SurfaceForces(const SystemSettings& system)
+      : has_drag(system.earth && system.earth->atmosphere),
+        has_radiation(system.earth && system.earth->radiation) {}
+  bool any() const { return has_drag || has_radiation; }
+};
+
+void refuse_keys_without(const TableReader& table, const CoefficientKeys& keys,
+                         std::string_view what, std::string_view remedy) {
+  for (const std::string_view key : {keys.itself, keys.factor, keys.own_area}) {
+    if (key.empty() || !table.has(key)) continue;
+    table.fail(key, fmt::format("without {}, got {}, must be left out, or beside {}", what,
+                                table.found(key), remedy));
   }
+}
+
+[[noreturn]] void fail_given_twice(const TableReader& table, std::string_view part,
+                                   std::string_view other) {
+  table.fail(part, fmt::format("given twice, got {} beside {}, must be left out, or {}",
+                               table.found(part), other, other));
+}
+
+/// The coefficient that a table tells, of which mass and area may belong to another one.
+double read_coefficient(const TableReader& table, const CoefficientKeys& keys) {
+  if (table.has(keys.itself)) {
+    for (const std::string_view part : {keys.factor, keys.own_area}) {
+      if (!part.empty() && table.has(part)) fail_given_twice(table, part, keys.itself);
+    }
+    const double value = table.number(keys.itself);
+    if (value < 0) {
+      table.fail(keys.itself, fmt::format("negative, got {}, must be at least 0", value));
+    }
+    warn_of_unit(table, keys.itself, keys, value);
+    return value;
+  }
+  const bool has_own_area = !keys.own_area.empty() && table.has(keys.own_area);
+  const std::string_view area_key = has_own_area ? keys.own_area : "area_m2";
   const double mass = table.positive_number("mass_kg");
-  const double area = table.positive_number("area_m2");
-  double coefficient = usual_drag_coefficient;
-  table.read_if_any("drag_coefficient", coefficient);
-  const double drag = coefficient * area / mass;
-  warn_of_unit(table, "area_m2", drag);
-  return drag;
+  const double area = table.positive_number(area_key);
+  double factor = keys.usual_factor;
+  table.read_if_any(keys.factor, factor);
+  const double value = factor * area / mass;
+  warn_of_unit(table, area_key, keys, value);
+  return value;
 }
 
-}  // namespace
-
-const TableDescription& spacecraft_table() {
-  static const TableDescription table = {
-      {{"mass_kg", form::positive(), absent::other("`drag_m2_kg`"), "of the spacecraft"},
-       {"area_m2", form::positive(), absent::other("`drag_m2_kg`"), "across its motion"},
-       {"drag_coefficient", form::positive(), absent::value(usual_drag_coefficient),
-        "C_D, beside mass and area"},
-       {"drag_m2_kg", form::number(), absent::other("of mass, area and C_D"),
-        "C_D A / m, at least 0"}},
-      "What the air does to a spacecraft of the model `earth`; a deputy without this table is like "
-      "the chief."};
-  return table;
-}
-
-std::vector<SceneKey> atmosphere_keys() {
-  const std::vector<std::string_view> owner = {"earth"};
-  const AtmosphereSettings preset;
-  return {{"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
-           absent::other("no drag"),
-           "density of the air, which turns with the Earth: `harris-priester` bulges on the "
-           "afternoon side, 100 to 1000 km high",
-           owner},
-          {"density_factor", form::positive(), absent::value(preset.density_factor),
-           "of all densities of the air", owner},
-          {"bulge_exponent", form::integer(2, 6), absent::value(preset.bulge_exponent),
-           "of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner}};
-}
-
-void read_drag(const TableReader& root, SystemSettings& settings) {
-  if (!settings.earth) {
-    if (!root.has("spacecraft")) return;
-    root.table("spacecraft")
-        .fail("", fmt::format("without air, got a spacecraft of the model {}, must be left out, or "
-                              "system.model = \"earth\" with an atmosphere",
-                              model_name(settings.model)));
+/// Whether a table says anything about a coefficient.
+bool tells(const TableReader& table, const CoefficientKeys& keys) {
+  for (const std::string_view key : {keys.itself, keys.factor, keys.own_area,
+                                     std::string_view("mass_kg"), std::string_view("area_m2")}) {
+    if (!key.empty() && table.has(key)) return true;
   }
-  EarthSettings& earth = *settings.earth;
-  const TableReader system = root.table("system");
+  return false;
+}
+
+/// Reads the coefficients of the forces that there are. What a deputy does not tell is its chief's.
+SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForces& forces,
+                                     bool is_deputy) {
+  table.check_keys();
+  if (!forces.has_drag) refuse_keys_without(table, drag_keys, "air", "system.atmosphere");
+  if (!forces.has_radiation) {
+    refuse_keys_without(table, radiation_keys, "light", "system.radiation = true");
+  }
+  const bool drag_needs_parts = forces.has_drag && !table.has(drag_keys.itself);
+  const bool radiation_needs_parts = forces.has_radiation && !table.has(radiation_keys.itself);
+  const std::string_view other = forces.has_drag ? drag_keys.itself : radiation_keys.itself;
+  if (table.has("mass_kg") && !drag_needs_parts && !radiation_needs_parts) {
+    fail_given_twice(table, "mass_kg", other);
+  }
+  const bool needs_area =
+      drag_needs_parts || (radiation_needs_parts && !table.has(radiation_keys.own_area));
+  if (table.has("area_m2") && !needs_area) {
+    fail_given_twice(table, "area_m2", radiation_needs_parts ? radiation_keys.own_area : other);
+  }
+  SpacecraftSettings settings;
+  if (forces.has_drag && (!is_deputy || tells(table, drag_keys))) {
+    settings.drag_m2_kg = read_coefficient(table, drag_keys);
+  }
+  if (forces.has_radiation && (!is_deputy || tells(table, radiation_keys))) {
+    settings.radiation_m2_kg = read_coefficient(table, radiation_keys);
+  }
+  return settings;
+}
+
+/// Refuses keys of `[system]` that stand without the one that they describe.
+void refuse_alone(const TableReader& system, std::initializer_list<std::string_view> keys,
+                  std::string_view what, std::string_view other) {
+  for (const std::string_view key : keys) {
+    if (!system.has(key)) continue;
+    system.fail(key, fmt::format("without {}, got {}, must be left out, or beside {}", what,
+                                 system.found(key), other));
+  }
+}
+
+void read_air(const TableReader& system, EarthSettings& earth) {
   if (!system.has("atmosphere")) {
-    for (const std::string_view key : {"density_factor", "bulge_exponent"}) {
-      if (!system.has(key)) continue;
-      system.fail(key, fmt::format("without air, got {}, must be left out, or beside atmosphere",
-                                   system.found(key)));
-    }
-    if (root.has("spacecraft")) {
-      root.table("spacecraft")
-          .fail("",
-                "without air, got a spacecraft, must be left out, or system.atmosphere = "
-                "\"harris-priester\"");
-    }
-  } else {
-    AtmosphereSettings air;
-    air.model = static_cast<AtmosphereModel>(system.choice("atmosphere"));
-    if (system.has("density_factor")) air.density_factor = system.positive_number("density_factor");
-    system.read_if_any("bulge_exponent", air.bulge_exponent);
-    if (air.bulge_exponent % 2 != 0) {
-      system.fail("bulge_exponent",
-                  fmt::format("odd, got {}, must be 2, 4 or 6", air.bulge_exponent));
-    }
-    if (!root.has("spacecraft")) {
-      system.fail(
-          "atmosphere",
-          fmt::format("without a spacecraft, got {}, must stand beside a table [spacecraft] "
-                      "with mass_kg and area_m2, or drag_m2_kg",
-                      system.found("atmosphere")));
-    }
-    earth.atmosphere = air;
-    const TableReader spacecraft = root.table("spacecraft");
-    spacecraft.check_keys();
-    earth.drag_m2_kg = read_drag_coefficient(spacecraft);
+    refuse_alone(system, {"density_factor", "bulge_exponent"}, "air", "atmosphere");
+    return;
   }
-  if (!root.has("jet") || !root.table("jet").has("variables")) return;
-  const TableReader jet = root.table("jet");
+  AtmosphereSettings air;
+  air.model = static_cast<AtmosphereModel>(system.choice("atmosphere"));
+  if (system.has("density_factor")) air.density_factor = system.positive_number("density_factor");
+  system.read_if_any("bulge_exponent", air.bulge_exponent);
+  if (air.bulge_exponent % 2 != 0) {
+    system.fail("bulge_exponent",
+                fmt::format("odd, got {}, must be 2, 4 or 6", air.bulge_exponent));
+  }
+  earth.atmosphere = air;
+}
+
+void read_light(const TableReader& system, EarthSettings& earth) {
+  if (!system.boolean_if_any("radiation").value_or(false)) {
+    refuse_alone(system, {"shadow"}, "light", "radiation = true");
+    return;
+  }
+  if (!earth.has_sun) {
+    system.fail(
+        "radiation",
+        "without the Sun, got true beside sun = false, must be false, or beside sun = true");
+  }
+  RadiationSettings light;
+  if (system.has("shadow")) light.shadow = static_cast<ShadowModel>(system.choice("shadow"));
+  earth.radiation = light;
+}
+
+/// Reads the parameters in which jets are expanded.
+void read_parameters(const TableReader& jet, SystemSettings& settings) {
+  const EarthSettings& earth = *settings.earth;
   const std::vector<std::string> variables = jet.texts("variables");
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const EarthParameter& parameter : earth_parameters()) {
       if (parameter.name != variables[i]) continue;
-      if (!earth.atmosphere) {
-        jet.fail_element("variables", i,
-                         fmt::format("of no effect without air, got \"{}\", must be left out, or "
-                                     "beside system.atmosphere",
-                                     parameter.name));
+      const bool is_of_light = parameter.name == radiation_parameter;
+      if (is_of_light ? !earth.radiation : !earth.atmosphere) {
+        jet.fail_element(
+            "variables", i,
+            fmt::format("of no effect without {}, got \"{}\", must be left out, or beside "
+                        "system.{}",
+                        is_of_light ? "light" : "air", parameter.name,
+                        is_of_light ? "radiation = true" : "atmosphere"));
       }
       if (!earth.parameters.empty()) {
         jet.fail_element("variables", i,
@@ -142,16 +201,94 @@ void read_drag(const TableReader& root, SystemSettings& settings) {
   }
 }
 
-std::optional<double> read_spacecraft(const TableReader& owner, const SystemSettings& system) {
-  if (!owner.has("spacecraft")) return std::nullopt;
-  const TableReader table = owner.table("spacecraft");
-  if (!system.earth || !system.earth->atmosphere) {
-    table.fail("",
-               "without air, got a spacecraft, must be left out, or system.model = \"earth\" "
-               "with an atmosphere");
+}  // namespace
+
+const TableDescription& spacecraft_table() {
+  static const TableDescription table = {
+      {{"mass_kg", form::positive(), absent::other("`drag_m2_kg` and `radiation_m2_kg`"),
+        "of the spacecraft"},
+       {"area_m2", form::positive(), absent::other("the same"), "across its motion"},
+       {"drag_coefficient", form::positive(), absent::value(usual_drag_coefficient),
+        "C_D, beside mass and area"},
+       {"drag_m2_kg", form::number(), absent::other("of mass, area and C_D"),
+        "C_D A / m, at least 0"},
+       {"sunlit_area_m2", form::positive(), absent::other("`area_m2`"),
+        "across the Sun's direction"},
+       {"reflection_coefficient", form::between(0, 2), absent::value(usual_reflection_coefficient),
+        "C_R, beside mass and area: 1 where all light is absorbed"},
+       {"radiation_m2_kg", form::number(), absent::other("of mass, area and C_R"),
+        "C_R A / m, at least 0"}},
+      "What air and light do to a spacecraft of the model `earth`; a deputy is like the chief in "
+      "what it does not tell."};
+  return table;
+}
+
+std::vector<SceneKey> surface_force_keys() {
+  const std::vector<std::string_view> owner = {"earth"};
+  const AtmosphereSettings air;
+  return {{"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
+           absent::other("no drag"),
+           "density of the air, which turns with the Earth: `harris-priester` bulges on the "
+           "afternoon side, 100 to 1000 km high",
+           owner},
+          {"density_factor", form::positive(), absent::value(air.density_factor),
+           "of all densities of the air", owner},
+          {"bulge_exponent", form::integer(2, 6), absent::value(air.bulge_exponent),
+           "of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner},
+          {"radiation", form::boolean(), absent::value(false),
+           "whether the Sun's light presses on a spacecraft", owner},
+          {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
+           absent::value(name_of(RadiationSettings().shadow)),
+           "which light the Earth keeps off: `conical` has umbra and penumbra", owner}};
+}
+
+void read_surface_forces(const TableReader& root, SystemSettings& settings) {
+  if (!settings.earth) {
+    if (!root.has("spacecraft")) return;
+    root.table("spacecraft")
+        .fail("",
+              fmt::format("without air or light, got a spacecraft of the model {}, must be left "
+                          "out, or system.model = \"earth\" with an atmosphere or radiation",
+                          model_name(settings.model)));
   }
-  table.check_keys();
-  return read_drag_coefficient(table);
+  EarthSettings& earth = *settings.earth;
+  const TableReader system = root.table("system");
+  read_air(system, earth);
+  read_light(system, earth);
+  const SurfaceForces forces(settings);
+  if (forces.any() && !root.has("spacecraft")) {
+    const std::string_view key = forces.has_drag ? "atmosphere" : "radiation";
+    system.fail(key, fmt::format("without a spacecraft, got {}, must stand beside a table "
+                                 "[spacecraft] with mass_kg and area_m2, or {}",
+                                 system.found(key),
+                                 forces.has_drag ? drag_keys.itself : radiation_keys.itself));
+  }
+  if (root.has("spacecraft")) {
+    const TableReader table = root.table("spacecraft");
+    if (!forces.any()) {
+      table.fail("",
+                 "without air or light, got a spacecraft, must be left out, or system.atmosphere = "
+                 "\"harris-priester\" or system.radiation = true");
+    }
+    const SpacecraftSettings chief = read_coefficients(table, forces, false);
+    earth.drag_m2_kg = chief.drag_m2_kg.value_or(0);
+    earth.radiation_m2_kg = chief.radiation_m2_kg.value_or(0);
+  }
+  if (root.has("jet") && root.table("jet").has("variables")) {
+    read_parameters(root.table("jet"), settings);
+  }
+}
+
+SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system) {
+  if (!owner.has("spacecraft")) return {};
+  const TableReader table = owner.table("spacecraft");
+  const SurfaceForces forces(system);
+  if (!forces.any()) {
+    table.fail("",
+               "without air or light, got a spacecraft, must be left out, or system.model = "
+               "\"earth\" with an atmosphere or radiation");
+  }
+  return read_coefficients(table, forces, true);
 }
 
 }  // namespace hamjet::io

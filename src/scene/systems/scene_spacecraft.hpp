@@ -10,14 +10,21 @@
 
 namespace hamjet::io {
 
-/// The keys of `[system]` about the air of the model `earth`.
-std::vector<SceneKey> atmosphere_keys();
+/// What a table says of a spacecraft: C_D A / m and C_R A / m, in m^2/kg; no value where the force
+/// is none of the scene's, or a deputy leaves it to its chief.
+struct SpacecraftSettings {
+  std::optional<double> drag_m2_kg = {};
+  std::optional<double> radiation_m2_kg = {};
+};
 
-/// Reads the air of the model `earth`, the chief's coefficient, and the names of the parameters in
-/// which `[jet]` expands. Refuses a table [spacecraft] of other models.
-void read_drag(const TableReader& root, SystemSettings& system);
+/// The keys of `[system]` about the air and the light of the model `earth`.
+std::vector<SceneKey> surface_force_keys();
 
-/// The C_D A / m, in m^2/kg, of the table `spacecraft` in a table; no value where it has none.
-std::optional<double> read_spacecraft(const TableReader& owner, const SystemSettings& system);
+/// Reads air and light of the model `earth`, the chief's coefficients, and the names of the
+/// parameters in which `[jet]` expands. Refuses a table [spacecraft] of other models.
+void read_surface_forces(const TableReader& root, SystemSettings& system);
+
+/// The table `spacecraft` in the table of a deputy.
+SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system);
 
 }  // namespace hamjet::io

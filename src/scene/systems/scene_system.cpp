@@ -237,7 +237,7 @@ const TableDescription& system_table() {
       }
       if (system.model == SystemModel::earth) {
         result.keys =
-            joined<SceneKey>({result.keys, earth_keys(), atmosphere_keys(), earth_field_keys()});
+            joined<SceneKey>({result.keys, earth_keys(), surface_force_keys(), earth_field_keys()});
       }
       for (const SystemParameter& parameter : system.parameters) {
         result.keys.push_back(key_of(parameter, system.name));
@@ -270,7 +270,7 @@ SystemSettings read_system(const TableReader& root) {
   for (const SystemParameter& parameter : description_of(settings.model).parameters) {
     read_parameter(system, parameter, settings);
   }
-  read_drag(root, settings);
+  read_surface_forces(root, settings);
   return settings;
 }
 

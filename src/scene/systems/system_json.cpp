@@ -74,6 +74,9 @@ Json system_json(const SystemSettings& system) {
     const auto of_air = [&](const auto& value) {
       return earth->atmosphere ? Json(value(*earth)) : Json(nullptr);
     };
+    const auto of_light = [&](const auto& value) {
+      return earth->radiation ? Json(value(*earth)) : Json(nullptr);
+    };
     json["earth"] = {
         {"gravity_degree", earth->degree},
         {"gravity_order", earth->order},
@@ -87,6 +90,8 @@ Json system_json(const SystemSettings& system) {
         {"bulge_exponent",
          of_air([](const EarthSettings& e) { return e.atmosphere->bulge_exponent; })},
         {"drag_m2_kg", of_air([](const EarthSettings& e) { return e.drag_m2_kg; })},
+        {"radiation_m2_kg", of_light([](const EarthSettings& e) { return e.radiation_m2_kg; })},
+        {"shadow", of_light([](const EarthSettings& e) { return name_of(e.radiation->shadow); })},
         {"axes", earth->axes}};
   }
   return json;

@@ -9,6 +9,7 @@
 #include "../flights/paced_times.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
+#include "../sunlight.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -92,6 +93,13 @@ std::vector<Without> forces_of(const EarthSettings& earth) {
     forces.push_back({"drag", "without atmosphere and [spacecraft]",
                       [](EarthSettings& s) { s.atmosphere.reset(); }});
   }
+  if (earth.radiation) {
+    forces.push_back(
+        {"radiation", "radiation = false", [](EarthSettings& s) { s.radiation.reset(); }});
+  }
+  if (earth.sunlight && !earth.sunlight->edges().empty()) {
+    forces.push_back({"shadow", "shadow = \"none\"", [](EarthSettings& s) { s.sunlight.reset(); }});
+  }
   return forces;
 }
 
@@ -130,6 +138,25 @@ std::vector<ForceSize> force_sizes(const Scene& asked) {
       if (!deputy) continue;
       const Vector3d other = place_of(other_beside[k]) - place_of(beside[k]);
       size.relative_m = std::max(*size.relative_m, (other - moved).norm() * units.length_m);
+    }
+    sizes.push_back(std::move(size));
+  }
+  const auto& sunlight = scene.system.earth->sunlight;
+  if (deputy && sunlight && !sunlight->edges().empty()) {
+    // All flights of a scene have the light that its chief sees; this is what that leaves out.
+    SystemSettings settings = scene.system;
+    settings.earth->sunlight = sunlight_along(settings, scene.canonical_radius, *deputy);
+    const SharedSystem system = make_system(settings, scene.canonical_radius);
+    const Orbit own = fly_from(system, *deputy);
+    const auto with_chief = accelerations(*all, beside, scene.start_time, times);
+    const auto with_own = accelerations(*system, beside, scene.start_time, times);
+    ForceSize size = {.name = "deputy's own edges", .key = "no key does", .relative_m = 0};
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      const double acceleration =
+          (with_own[k] - with_chief[k]).norm() * units.length_m / (units.time_s * units.time_s);
+      size.largest_m_s2 = std::max(size.largest_m_s2, acceleration);
+      const Vector3d moved = place_of(own[k]) - place_of(beside[k]);
+      size.relative_m = std::max(*size.relative_m, moved.norm() * units.length_m);
     }
     sizes.push_back(std::move(size));
   }

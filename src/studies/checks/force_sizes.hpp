@@ -19,7 +19,8 @@ struct ForceSize {
 };
 
 /// Flies the chief, and the deputy where there is one, over the scene's duration with all forces
-/// and again without each of them, and compares at equal times. Empty for other models. Throws as
+/// and again without each of them, and compares at equal times. The last row of a deputy in shadows
+/// is what it leaves out that its light is that of its chief. Empty for other models. Throws as
 /// exact_flow.
 std::vector<ForceSize> force_sizes(const Scene& scene);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../../algebra/raise_to.hpp"
+#include "../../astronomy/sunlight.hpp"
 #include "../formation/charted_jet.hpp"
 #include "kept_tolerance.hpp"
 
@@ -82,10 +83,27 @@ std::string charted_digits_warning(const Scene& scene, const RunResult& run) {
       wrong.front(), name_of(run.charted->coordinates));
 }
 
+std::string passed_edges_warning(const Scene& scene, const RunResult& run) {
+  if (!run.settings.step_canonical || !scene.system.earth || !scene.system.earth->sunlight) {
+    return "";
+  }
+  const double end = scene.duration;
+  const std::vector<double>& edges = scene.system.earth->sunlight->edges();
+  const auto passed = std::count_if(edges.begin(), edges.end(), [&](double edge) {
+    return end < 0 ? edge < 0 && edge > end : edge > 0 && edge < end;
+  });
+  if (passed == 0) return "";
+  return fmt::format(
+      "equal steps pass over {} edges of the shadow, at which the force has no derivatives, so "
+      "that "
+      "their error falls with the order of the method no more; with a tolerance steps end there",
+      passed);
+}
+
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run) {
-  std::vector<std::string> warnings = {near_singular_warning(scene, run), no_digits_warning(run),
-                                       charted_digits_warning(scene, run),
-                                       tolerance_warning(scene, run)};
+  std::vector<std::string> warnings = {
+      near_singular_warning(scene, run), no_digits_warning(run), charted_digits_warning(scene, run),
+      passed_edges_warning(scene, run), tolerance_warning(scene, run)};
   std::erase(warnings, "");
   return warnings;
 }

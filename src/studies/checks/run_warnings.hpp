@@ -21,6 +21,9 @@ std::string no_digits_warning(const RunResult& run);
 /// The same of the run's polynomials in the scene's coordinates, by degrees_without_digits.
 std::string charted_digits_warning(const Scene& scene, const RunResult& run);
 
+/// A warning about fixed steps that pass over edges of the shadow; empty for other runs.
+std::string passed_edges_warning(const Scene& scene, const RunResult& run);
+
 /// All of these warnings and tolerance_warning.
 std::vector<std::string> run_warnings(const Scene& scene, const RunResult& run);
 

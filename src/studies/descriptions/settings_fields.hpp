@@ -20,6 +20,7 @@ HAMJET_FIELDS(ComparisonSettings, methods, stages, steps_canonical, tolerances, 
 inline const std::vector<std::string_view>& names_of(SystemModel) { return model_names(); }
 inline const std::vector<std::string_view>& names_of(IntegrationMethod) { return method_names(); }
 inline const auto& names_of(AtmosphereModel) { return atmosphere_names; }
+inline const auto& names_of(ShadowModel) { return shadow_names; }
 
 /// An enumeration whose enumerators have names.
 template <class Enumeration>

@@ -29,7 +29,7 @@ std::vector<SystemDescription> describe_systems() {
        .name = "earth",
        .help = "the real Earth: a field of any degree and order that turns, Sun and Moon; an epoch "
                "and axes in [nominal]: gravity_degree, gravity_order, gravity_file, sun, moon, "
-               "atmosphere beside a table [spacecraft], orientation_file",
+               "atmosphere or radiation beside a table [spacecraft], orientation_file",
        .is_orbit = true,
        .degrees_of_freedom = {3},
        .make = earth_system},

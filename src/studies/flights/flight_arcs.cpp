@@ -46,15 +46,17 @@ std::vector<std::vector<double>> fly_arcs(const SharedSystem& system,
     for (std::size_t f = 0; f < flows.size(); ++f) {
       // Lanes without a state of their own repeat another one, so that they are finite.
       for (std::size_t lane = 0; lane < lanes; ++lane) {
-        flows[f].set_state(lane, now, states[std::min(f * lanes + lane, states.size() - 1)]);
+        flows[f].set_state(lane, now, states[std::min(f * lanes + lane, states.size() - 1)],
+                           std::copysign(1.0, time));
       }
       flows[f].expand();
       for (std::size_t lane = 0; lane < lanes; ++lane) {
-        const double reach = used_reach * flows[f].reach(lane);
+        const double reach = flows[f].reach(lane, used_reach);
         arc.span = std::clamp(arc.span, -reach, reach);
       }
     }
-    if (time != 0 && !(std::abs(arc.span) > least_part * std::abs(time))) {
+    const bool is_long = std::abs(arc.span) > least_part * std::abs(time);
+    if (time != 0 && !(is_long || flows[0].ends_at_break(0, arc.span))) {
       throw Error(ErrorKind::numerical,
                   fmt::format("a flight cannot be followed beyond t = {:.6g}: it runs into a "
                               "collision",

@@ -31,22 +31,33 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
 
 namespace {
 
-/// Whether the deputy has a C_D A / m of its own.
-bool differs(const Scene& scene) {
-  return scene.system.earth && scene.deputy && scene.deputy->drag_m2_kg &&
-         *scene.deputy->drag_m2_kg != scene.system.earth->drag_m2_kg;
+/// A coefficient in which the deputy differs from its chief.
+struct Difference {
+  std::string_view parameter;
+  double deputy = 0;
+  double chief = 0;
+};
+
+std::vector<Difference> differences_of(const Scene& scene) {
+  std::vector<Difference> differences;
+  if (!scene.system.earth || !scene.deputy) return differences;
+  const auto add = [&](std::string_view name, const std::optional<double>& own, double chief) {
+    if (own && *own != chief) differences.push_back({name, *own, chief});
+  };
+  add(drag_parameter, scene.deputy->drag_m2_kg, scene.system.earth->drag_m2_kg);
+  add(radiation_parameter, scene.deputy->radiation_m2_kg, scene.system.earth->radiation_m2_kg);
+  return differences;
 }
 
 }  // namespace
 
 void require_one_spacecraft(const Scene& scene, std::string_view table) {
-  if (differs(scene)) {
-    throw Error(
-        ErrorKind::scene,
-        fmt::format("{}: is about spacecraft that are alike, got a deputy with drag_m2_kg = "
-                    "{:.6g} beside a chief with {:.6g}, must be the same; motion "
-                    "serves deputies that differ",
-                    table, *scene.deputy->drag_m2_kg, scene.system.earth->drag_m2_kg));
+  for (const Difference& difference : differences_of(scene)) {
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: is about spacecraft that are alike, got a deputy with {} = {:.6g} "
+                            "beside a chief with {:.6g}, must be the same; motion serves deputies "
+                            "that differ",
+                            table, difference.parameter, difference.deputy, difference.chief));
   }
   if (scene.system.earth && !scene.system.earth->parameters.empty()) {
     throw Error(ErrorKind::scene,
@@ -57,31 +68,42 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
 }
 
 Scene with_deputy_parameters(Scene scene) {
-  if (!differs(scene)) return scene;
+  const std::vector<Difference> differences = differences_of(scene);
+  if (differences.empty()) return scene;
+  if (differences.size() > 1) {
+    throw Error(ErrorKind::scene,
+                fmt::format("deputy.spacecraft: differs from the chief's in {} and {}, must differ "
+                            "in one of them: jets have one parameter",
+                            differences[0].parameter, differences[1].parameter));
+  }
+  const Difference& difference = differences[0];
   const EarthSettings& earth = *scene.system.earth;
-  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_parameter);
+  const auto place =
+      std::find(earth.parameters.begin(), earth.parameters.end(), difference.parameter);
   if (place != earth.parameters.end()) return scene;
   if (!earth.parameters.empty()) {
     throw Error(ErrorKind::scene,
-                fmt::format("deputy.spacecraft: differs from the chief's, got jet.variables with "
-                            "{}, must be without it: jets have one parameter",
-                            earth.parameters[0]));
+                fmt::format("deputy.spacecraft: differs from the chief's in {}, got jet.variables "
+                            "with {}, must be without it: jets have one parameter",
+                            difference.parameter, earth.parameters[0]));
   }
-  add_parameter(scene.system, drag_parameter);
+  add_parameter(scene.system, difference.parameter);
   scene.variables.push_back(scene.nominal.size());
-  scene.nominal.push_back(earth.drag_m2_kg);
+  scene.nominal.push_back(difference.chief);
   scene.coordinates = {};
   return scene;
 }
 
 std::vector<double> deputy_parameters(const Scene& scene) {
-  std::vector<double> differences;
-  if (!scene.system.earth) return differences;
+  std::vector<double> values;
+  if (!scene.system.earth) return values;
+  const std::vector<Difference> differences = differences_of(scene);
   for (const std::string& name : scene.system.earth->parameters) {
-    const bool is_own = name == drag_parameter && differs(scene);
-    differences.push_back(is_own ? *scene.deputy->drag_m2_kg - scene.system.earth->drag_m2_kg : 0);
+    const auto own = std::find_if(differences.begin(), differences.end(),
+                                  [&](const Difference& one) { return one.parameter == name; });
+    values.push_back(own == differences.end() ? 0 : own->deputy - own->chief);
   }
-  return differences;
+  return values;
 }
 
 std::vector<double> deputy_deviation(const Scene& scene) {

@@ -11,8 +11,8 @@ namespace hamjet {
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table);
 
-/// Throws Error(scene) if the deputy has another C_D A / m than the chief, or if jets are expanded
-/// in a parameter: this study has polynomials about one kind of spacecraft.
+/// Throws Error(scene) if the deputy has another C_D A / m or C_R A / m than the chief, or if jets
+/// are expanded in a parameter: this study has polynomials about one kind of spacecraft.
 void require_one_spacecraft(const Scene& scene, std::string_view table);
 
 /// The scene whose states end with the parameters in which the deputy differs from the chief, and

@@ -13,6 +13,7 @@
 namespace hamjet {
 
 class EarthOrientation;
+class Sunlight;
 class SphericalHarmonicCoefficients;
 
 /// C_D where a scene gives none: of a compact body in free molecular flow.
@@ -36,6 +37,26 @@ struct AtmosphereSettings {
   int bulge_exponent = 4;     ///< 2 for low inclinations to 6 for polar orbits
 };
 
+/// C_R where a scene gives none: between 1 of a sphere that absorbs and 1.9 of aluminium
+/// (Montenbruck and Gill, Satellite Orbits, table 3.5: solar panels 1.21, a high-gain
+/// antenna 1.30).
+inline constexpr double usual_reflection_coefficient = 1.3;
+
+/// Whether the Earth keeps the Sun's light from a spacecraft.
+enum class ShadowModel { conical, none };
+
+/// The models' names in scenes and results, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 2> shadow_names = {"conical", "none"};
+
+inline std::string_view name_of(ShadowModel model) {
+  return shadow_names[static_cast<std::size_t>(model)];
+}
+
+/// The pressure of the Sun's light in the model `earth`, see RadiationPressure.
+struct RadiationSettings {
+  ShadowModel shadow = ShadowModel::conical;
+};
+
 /// The model `earth`: the forces that act, and when and how the Earth stands.
 struct EarthSettings {
   int degree = 20;
@@ -51,6 +72,10 @@ struct EarthSettings {
   std::shared_ptr<const EarthOrientation> orientation;  ///< null without a file
   std::optional<AtmosphereSettings> atmosphere;         ///< absent if there is no drag
   double drag_m2_kg = 0;                                ///< C_D A / m of the chief
+  std::optional<RadiationSettings> radiation;  ///< absent if the Sun's light presses on nothing
+  double radiation_m2_kg = 0;                  ///< C_R A / m of the chief
+  /// The light along the nominal, in canonical times; null where all is lit. See light_nominal.
+  std::shared_ptr<const Sunlight> sunlight;
   /// Names of the parameters with which states end, see earth_parameters.
   std::vector<std::string> parameters;
   /// The axes in which the scene gives its orbits; all are flown along those of GCRF.
@@ -61,8 +86,9 @@ struct EarthSettings {
 };
 
 HAMJET_FIELDS(AtmosphereSettings, model, density_factor, bulge_exponent)
+HAMJET_FIELDS(RadiationSettings, shadow)
 HAMJET_FIELDS(EarthSettings, degree, order, field, has_sun, has_moon, mu_sun_km3_s2, mu_moon_km3_s2,
               epoch_tt, orientation_file, orientation_checksum, orientation, atmosphere, drag_m2_kg,
-              parameters, axes, first_s, last_s)
+              radiation, radiation_m2_kg, sunlight, parameters, axes, first_s, last_s)
 
 }  // namespace hamjet

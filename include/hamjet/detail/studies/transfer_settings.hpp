@@ -15,7 +15,8 @@ namespace hamjet {
 struct DeputySettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of the state, and of its motion
   RelativeState start;
-  std::optional<double> drag_m2_kg = {};  ///< C_D A / m; the chief's if absent
+  std::optional<double> drag_m2_kg = {};       ///< C_D A / m; the chief's if absent
+  std::optional<double> radiation_m2_kg = {};  ///< C_R A / m, likewise
 };
 
 /// A deputy at its arrival, relative to the chief at that time: a state along the axes of the
