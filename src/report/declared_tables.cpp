@@ -13,6 +13,7 @@
 #include "formation/deputy_motion_report.hpp"
 #include "formation/transfer_tables.hpp"
 #include "formation/validity_table.hpp"
+#include "periodic/periodic_report.hpp"
 #include "uncertainty/moments_table.hpp"
 
 namespace hamjet::io {
@@ -76,6 +77,13 @@ std::vector<TableView> declared_bounded() {
   return bounded_tables(formation);
 }
 
+std::vector<TableView> declared_periodic() {
+  PeriodicStudy study{declaring_scene(), {}, {}};
+  study.scene.nominal.resize(6);
+  study.scene.periodic.emplace();
+  return periodic_tables(study);
+}
+
 std::vector<TableView> declared_uncertainty() {
   UncertaintyResult result;
   result.scene = declaring_scene();
@@ -117,7 +125,8 @@ std::vector<TableView> declared_tables() {
   for (std::vector<TableView> tables :
        {deputy_motion_tables(declared_motion()), transfer_tables(declared_transfers()),
         assignment_tables(declared_assignment()), validity_tables(declared_validity()),
-        declared_uncertainty(), declared_poincare(), declared_event(), declared_bounded()}) {
+        declared_uncertainty(), declared_poincare(), declared_event(), declared_bounded(),
+        declared_periodic()}) {
     for (TableView& table : tables) all.push_back(std::move(table));
   }
   return all;

@@ -9,6 +9,7 @@
 #include "../studies/bounded/event_study.hpp"
 #include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/formation/deputy_motion.hpp"
+#include "../studies/periodic/periodic_study.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/scene_refusal.hpp"
@@ -18,6 +19,7 @@
 #include "formation/deputy_motion_report.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "periodic/periodic_report.hpp"
 #include "uncertainty/uncertainty_report.hpp"
 
 namespace hamjet::io {
@@ -121,6 +123,14 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "sizes_km = [1, 10]",
      .has_table = &has<&Scene::bounded>,
      .report = &done<&study_bounded, &bounded_report>},
+    {.command = "periodic",
+     .purpose = "periodic orbits near the nominal, their multipliers, and their families",
+     .files = "report.html, periodic.csv and summary.json",
+     .example = "periodic orbits and their families; a report",
+     .table = "periodic",
+     .smallest = "hold = \"energy\"",
+     .has_table = &has<&Scene::periodic>,
+     .report = &done<&study_periodic, &periodic_report>},
 };
 
 }  // namespace

@@ -120,6 +120,8 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
              [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
   read_table("bounded", [&](const auto& table) { scene.bounded = read_bounded(table, scene); });
   read_table("event", [&](const auto& table) { scene.event = read_event(table, scene); });
+  read_table("periodic",
+             [&](const auto& table) { scene.periodic = read_periodic(table, scene, nominal); });
   const bool has_deputy = read_table("deputy", [&](const auto& table) {
     scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
   });

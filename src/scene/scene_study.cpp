@@ -75,6 +75,7 @@ TableDescription flow_jet_top() {
         optional_table("bounded", bounded_table(), none, "of `hamjet bounded`"),
         optional_table("event", event_table(), "none, and the frozen orbit is found",
                        "of `hamjet poincare`"),
+        optional_table("periodic", periodic_table(), none, "of `hamjet periodic`"),
         optional_table("output", output_table(), "CSV and JSON", "further files of results"),
         optional_table("ephemeris", ephemeris_table(), "of the nominal's file",
                        "what dates an orbit"),

@@ -120,7 +120,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
                start_time, duration, order, arcs, symmetry, coordinates, variables, jet_times,
                integrators, separation, kinds, reference, relative_hamiltonian_times, checks,
                comparison, figure, deputy, transfer, validity, assignment, uncertainty, bounded,
-               event, output, ephemeris, nominal_file, warnings, own_system] = scene;
+               event, periodic, output, ephemeris, nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of the data that are kept under it
   key.add("reference stages", reference_stages);

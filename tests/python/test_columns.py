@@ -42,6 +42,9 @@ STUDIES = {
     "moments": lambda: hamjet.uncertainty(UNCERTAIN_PAIR),
     "poincare": lambda: hamjet.poincare(BOUNDED, overrides=SHORT),
     "event": lambda: hamjet.event(BOUNDED, overrides=EVENT),
+    "periodic": lambda: hamjet.periodic(
+        SOURCE / "data" / "scenes" / "own" / "earth-moon-halo-l2.toml",
+        overrides=["periodic.family.to=1.6"]),
     "bounded": lambda: hamjet.bounded(
         BOUNDED.with_name("stationkeeping-follower.toml"),
         overrides=["bounded.revolutions=20", "bounded.box.days=2"]),

@@ -10,12 +10,13 @@
 #include "../../src/report/bounded/box_report.hpp"
 #include "../../src/report/bounded/event_report.hpp"
 #include "../../src/report/bounded/frozen_orbit_report.hpp"
+#include "../../src/report/periodic/periodic_report.hpp"
 #include "sample_scene.hpp"
 #include "table_walk.hpp"
 #include "transfer_samples.hpp"
 
-// Made-up results of frozen orbits, events, deputies that stay, and one kept in a box, in which no
-// two numbers are the same.
+// Made-up results of frozen and periodic orbits, events, deputies that stay, and one kept in a box,
+// in which no two numbers are the same.
 
 namespace hamjet::io::report_tables {
 
@@ -129,6 +130,52 @@ inline Walk event_walk() {
            {"time_miss_s", {"s", 0.375}},
            {"linear_position_miss_m", {"m", nullptr}},
            {"linear_time_miss_s", {"s", 3.5}}}};
+}
+
+inline Walk periodic_walk() {
+  PeriodicStudy study{sample_long_scene(), {}, {}};
+  PeriodicSettings& settings = study.scene.periodic.emplace();
+  settings.family.emplace().along = "period";
+  PeriodicOrbit orbit;
+  orbit.nodes.states = {Vector<double>::LinSpaced(6, 1, 6)};
+  orbit.nodes.period = 7;
+  orbit.energy = -1.5;
+  orbit.mismatch = 1e-14;
+  orbit.closing = 1e-12;
+  orbit.iterations = 5;
+  orbit.monodromy.indices = {{-3, 0}, {0.5, 0}};
+  orbit.monodromy.multipliers = {{-5.75, 0}, {0.5, 0.875}};
+  orbit.monodromy.trivial_defect = 1e-10;
+  orbit.monodromy.determinant_defect = 2e-10;
+  orbit.monodromy.symplectic_defect = 3e-10;
+  study.family.members = {{orbit, 6}, {orbit, 7, "fold of the energy"}};
+  study.family.end = "too few";
+  study.paths = {{0, {{0, 0}, {1, 1}}}};
+  return {periodic_tables(study).front(),
+          periodic_report(study, sample_transfer_origin()),
+          {1},
+          {{"verdict", {"", periodic_verdict(study)}},
+           {"hold", {"", "energy"}},
+           {"along", {"", "period"}},
+           {"end", {"", "too few"}},
+           {"along_value", {"", 56}},
+           {"period_canonical", {"", 56}},
+           {"period_s", {"s", 7 * 927.6}},
+           {"energy", {"", -0.375}},
+           {"jacobi_constant", {"", 0.75}},
+           {"start", {"", {4, 8, 12, 2, 2.5, 3}}},
+           {"closing", {"", 1e-12}},
+           {"mismatch", {"", 1e-14}},
+           {"newton_steps", {"", 5}},
+           {"stability_indices", {"", {-3, 0.5}}},
+           {"stability_indices_imag", {"", {0, 0}}},
+           {"multipliers", {"", {-5.75, 0.5}}},
+           {"multipliers_imag", {"", {0, 0.875}}},
+           {"stable", {"", false}},
+           {"trivial_defect", {"", 1e-10}},
+           {"determinant_defect", {"", 2e-10}},
+           {"symplectic_defect", {"", 3e-10}},
+           {"marks", {"", "fold of the energy"}}}};
 }
 
 inline BoundedFormation sample_bounded() {
@@ -286,6 +333,7 @@ inline std::vector<Walk> bounded_walks() {
 inline std::vector<Walk> long_motion_walks() {
   std::vector<Walk> all = poincare_walks();
   all.push_back(event_walk());
+  all.push_back(periodic_walk());
   for (Walk& walk : bounded_walks()) all.push_back(std::move(walk));
   return all;
 }

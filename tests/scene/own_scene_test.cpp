@@ -1,6 +1,8 @@
+#include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "hamjet/studies/comparison.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -193,6 +195,53 @@ duration_canonical = 2
   EXPECT_NEAR(result.runs.at(0).nominal_final[0], 1 - std::cos(2.0), 1e-11);
   EXPECT_NEAR(result.runs.at(0).nominal_final[1], std::sin(2.0), 1e-11);
   EXPECT_NEAR(static_cast<double>(result.runs.at(0).jet[0][2]), 2, 1e-12);
+}
+
+/// The trace of the in-plane flow's linear part about L4 on an ellipse, over a turn, by RK4 in long
+/// double: x'' - 2y' = a x + b y, y'' + 2x' = b x + c y, divided by 1 + e cos(f).
+long double trace_about_l4(long double mu, long double e) {
+  using Row = std::array<long double, 4>;
+  const long double b = 3 * std::sqrt(3.0L) / 4 * (1 - 2 * mu);
+  const auto slope = [&](const Row& s, long double f) {
+    const long double k = 1 / (1 + e * std::cos(f));
+    return Row{s[2], s[3], 2 * s[3] + k * (0.75L * s[0] + b * s[1]),
+               -2 * s[2] + k * (b * s[0] + 2.25L * s[1])};
+  };
+  constexpr int steps = 4000;
+  const long double h = 2 * std::numbers::pi_v<long double> / steps;
+  long double trace = 0;
+  for (std::size_t j = 0; j < 4; ++j) {
+    Row s{};
+    s[j] = 1;
+    for (int k = 0; k < steps; ++k) {
+      const auto moved = [&](const Row& f, long double part) {
+        Row result = s;
+        for (std::size_t i = 0; i < 4; ++i) result[i] += part * h * f[i];
+        return result;
+      };
+      const Row f1 = slope(s, k * h);
+      const Row f2 = slope(moved(f1, 0.5L), (k + 0.5L) * h);
+      const Row f3 = slope(moved(f2, 0.5L), (k + 0.5L) * h);
+      const Row f4 = slope(moved(f3, 1), (k + 1) * h);
+      for (std::size_t i = 0; i < 4; ++i) s[i] += h / 6 * (f1[i] + 2 * f2[i] + 2 * f3[i] + f4[i]);
+    }
+    trace += s[j];
+  }
+  return trace;
+}
+
+// L4 rests in the pulsating coordinates on every ellipse; across the plane z'' = -z, whose flow
+// comes back after a turn.
+TEST(OwnScene, TheEllipticProblemRestsInItsTriangle) {
+  const PropagationResult result = computed("elliptic-restricted.toml");
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(result.runs.at(0).nominal_final[i], result.scene.nominal[i], 1e-12) << i;
+  }
+  const Matrix<double> turn = linear_part(result);
+  EXPECT_NEAR(turn(2, 2), 1, 1e-10);
+  EXPECT_NEAR(turn(5, 5), 1, 1e-10);
+  EXPECT_NEAR(turn(2, 5), 0, 1e-10);
+  EXPECT_NEAR(turn.trace() - 2, static_cast<double>(trace_about_l4(1 / 82.30059L, 0.0549L)), 1e-8);
 }
 
 // x' = v, v' = -x - 2c v has the flow of a damped oscillator, and its jet is in the states alone.

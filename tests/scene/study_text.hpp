@@ -97,6 +97,10 @@ class StudyText {
     add_all(s.surface, s.normal[0], s.normal[1], s.normal[2], s.offset_km, s.distance_km,
             s.direction, s.number, s.amplitudes_m);
   }
+  void add(const PeriodicFamilySettings& s) { add_all(s.along, s.to, s.step, s.members); }
+  void add(const PeriodicSettings& s) {
+    add_all(s.period, s.hold, s.value, s.arcs, s.tolerance, s.family);
+  }
   void add(const BoxSettings& s) {
     add_all(s.half_widths_m, s.reference, s.position_m, s.return_orbits, s.days);
   }
@@ -110,8 +114,8 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.output.formats,
-            s.ephemeris);
+            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.periodic,
+            s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -162,6 +162,7 @@ struct Scene {
   std::optional<UncertaintySettings> uncertainty;
   std::optional<BoundedSettings> bounded;
   std::optional<EventSettings> event;
+  std::optional<PeriodicSettings> periodic;
   OutputSettings output;
   std::optional<EphemerisSettings> ephemeris;
   std::optional<NominalFile> nominal_file;  ///< absent if the scene itself has the numbers

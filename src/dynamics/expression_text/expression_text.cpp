@@ -301,7 +301,15 @@ class ParsedFunction {
                             text == "atan2" ? ", as atan2(y, x)" : ""));
     }
     if (is_literal_ && text == "sqrt") return sqrt(x[0]);
-    return x.size() == 1 ? function->of_one(x[0]) : function->of_two(x[0], x[1]);
+    try {
+      return x.size() == 1 ? function->of_one(x[0]) : function->of_two(x[0], x[1]);
+    } catch (const Error&) {
+      // tan(pi/2) is a quotient inside, which has no place in the text.
+      const bool is_constant =
+          std::all_of(x.begin(), x.end(), [](const Expression& e) { return e.is_constant(); });
+      if (!is_constant) throw;
+      fail_not_finite(part, token, x);
+    }
   }
 
   [[noreturn]] void fail_call(const Part& part, const ExpressionToken& token) const {

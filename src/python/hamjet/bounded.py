@@ -1,4 +1,4 @@
-"""Frozen orbits, and deputies that stay with their chief for long without fuel."""
+"""Frozen and periodic orbits, and deputies that stay with their chief for long without fuel."""
 
 from __future__ import annotations
 
@@ -101,6 +101,19 @@ class Bounded(Study, table="bounded"):
                         f"{shown.largest(self.window_along_drift)} of the size a revolution")
 
 
+class Periodic(Study, table="periodic"):
+    """A periodic orbit, or a family of them; immutable.
+
+    ``end`` says why a family does not reach its last value, and is None where it does.
+    """
+
+    def __repr__(self) -> str:
+        along = f" along {self.along}" if self.along else ""
+        return shown.of(self, f": {len(self.energy)} orbits{along}, periods up to "
+                        f"{shown.largest(self.period_canonical)}, closing to "
+                        f"{shown.largest(self.closing)}")
+
+
 def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
              progress: Progress | None = None) -> FrozenOrbit:
     """The frozen orbit of a scene's chief, as ``hamjet poincare`` finds it without a table [event].
@@ -132,3 +145,14 @@ def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     """
     study = _hamjet.study_bounded(scenes.read(scene, overrides), arguments.progress(progress))
     return Bounded(study)
+
+
+def periodic(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
+             progress: Progress | None = None) -> Periodic:
+    """A scene's periodic orbit and its family, as ``hamjet periodic`` finds them.
+
+    The scene has a table [periodic]; arguments as of ``run``. Raises as ``poincare``, NumericalError
+    where no orbit is found.
+    """
+    study = _hamjet.study_periodic(scenes.read(scene, overrides), arguments.progress(progress))
+    return Periodic(study)

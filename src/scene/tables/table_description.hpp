@@ -151,6 +151,7 @@ const TableDescription& jet_table();
 const TableDescription& nominal_table();
 const TableDescription& optimal_control_table();
 const TableDescription& output_table();
+const TableDescription& periodic_table();
 const TableDescription& reference_table();
 const TableDescription& relative_hamiltonian_table();
 const TableDescription& spacecraft_table();

@@ -151,6 +151,24 @@ struct EventSettings {
   std::vector<double> amplitudes_m = {1, 10, 100, 1e3, 1e4};
 };
 
+/// Table `[periodic.family]`: how a family of periodic orbits is followed.
+struct PeriodicFamilySettings {
+  std::string along;           ///< "energy", "period", a variable, or "parameters." and a name
+  double to = 0;               ///< the last member's value of it, as the scene tells it
+  std::optional<double> step;  ///< of it between members; absent for a twentieth of the way
+  int members = 200;           ///< the most
+};
+
+/// Table `[periodic]`: a periodic orbit near the nominal.
+struct PeriodicSettings {
+  double period = 0;            ///< the guess, in canonical units
+  std::string hold = "energy";  ///< "energy", "period" or a variable
+  std::optional<double> value;  ///< of what is held, as the scene tells it; absent: the guess's
+  int arcs = 4;                 ///< of multiple shooting
+  double tolerance = 1e-10;     ///< of their mismatch, in parts of the orbit's size
+  std::optional<PeriodicFamilySettings> family;  ///< absent for one orbit
+};
+
 /// How the transfer times of an assignment are chosen.
 enum class AssignmentTime {
   per_pair,  ///< the best time for each deputy and slot

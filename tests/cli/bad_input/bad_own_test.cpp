@@ -1,0 +1,144 @@
+#include "refused_scene.hpp"
+
+// Scenes that write their own system, with one mistake each: what users of other programs write by
+// habit, and what has no Taylor series or no canonical equations. Columns and lines are counted by
+// hand.
+
+namespace hamjet::test {
+namespace {
+
+using std::string;
+
+const string own_scene = R"(schema = 1
+title = "own"
+[system]
+model = "own"
+coordinates = ["x", "y"]
+momenta = ["px", "py"]
+parameters = { mu = 0.01, k = "2*mu" }
+definitions = { r = "sqrt(x^2 + y^2)"
+}
+hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x"
+[nominal]
+coordinates = [1, 0]
+momenta = [0, 1]
+[jet]
+order = 2
+duration_canonical = 1
+)";
+const string hamiltonian = R"(hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x")";
+
+using BadOwn = RefusedScene;
+
+struct OwnMistake {
+  string from;
+  string to;
+  std::vector<string> words;
+};
+
+TEST_F(BadOwn, NamesAreOneLine) {
+  const std::vector<OwnMistake> mistakes = {
+      {"k*x\"", "kk*x\"", {":9:15: system.hamiltonian", "\"kk\" at column 25", "k, mu, px"}},
+      {"1/r", "1/R", {"\"R\" at column 21", "must be one of"}},
+      {"2*mu", "2*nu", {":7:31: system.parameters.k", "\"nu\" at column 3"}},
+      {"mu = 0.01", "mu = \"x\"", {"parameters.mu: not constant", "numbers and parameters"}},
+      {"mu = 0.01", "mu = \"t\"", {"parameters.mu: not constant, got \"t\""}},
+      {"mu = 0.01", "mu = \"k\"", {"parameters.k: defined by itself", "parameters.mu"}},
+      {"\"sqrt(x^2 + y^2)\"", "\"r + x\"", {"definitions.r: defined by itself"}},
+      {"mu = 0.01", "x = 1, mu = 0.01", {"parameters.x: a name given twice", "a variable"}},
+      {"{ r =", "{ mu =", {"definitions.mu: a name given twice", "parameters.mu"}},
+      {"mu = 0.01", "pi = 3, mu = 0.01", {"parameters.pi: a name that is taken", "number pi"}},
+      {"[\"px\", \"py\"]", "[\"px\", \"sin\"]", {"system.momenta", "the function sin"}},
+      {"[\"x\", \"y\"]", "[\"x\", \"t\"]", {"system.coordinates", "t is the time"}},
+      {"[\"px\", \"py\"]", "[\"px\", \"2p\"]", {":6:11: system.momenta: no name", "a letter"}}};
+  ASSERT_EQ(mistakes.size(), 13U);
+  for (const auto& [from, to, words] : mistakes) {
+    SCOPED_TRACE(to);
+    expect_refused(own_scene, from, to, words);
+  }
+}
+
+TEST_F(BadOwn, VariablesAreOneLine) {
+  const std::vector<OwnMistake> mistakes = {
+      {"momenta = [\"px\", \"py\"]\n", "", {":3:1: system.momenta: missing"}},
+      {"[\"px\", \"py\"]", "[\"px\"]", {"system.momenta: wrong length", "must be 2"}},
+      {"[\"px\", \"py\"]", "[\"px\", \"px\"]", {"system.momenta: a name given twice, got px"}},
+      {"[\"x\", \"y\"]", "[]", {"system.coordinates: empty", "at least one"}},
+      {"coordinates = [1, 0]", "coordinates = [1]", {":11:15: nominal.coordinates", "array of 2"}},
+      {"coordinates = [1, 0]", "position_km = [1, 0]", {"nominal.position_km", "no key"}},
+      {"momenta = [0, 1]", "momenta = [0, nan]", {"nominal.momenta.1: not finite"}},
+      {"momenta = [0, 1]", "velocities = [0, 1]", {"nominal.velocities", "momenta"}},
+      {"[nominal]", "[units]\nlength_km = 9\n[nominal]", {"units.time_s: missing", "above 0"}},
+      {"model = \"own\"", "model = \"own\"\nmu_km3_s2 = 4e5", {"system.mu_km3_s2", "no key"}}};
+  ASSERT_EQ(mistakes.size(), 10U);
+  for (const auto& [from, to, words] : mistakes) {
+    SCOPED_TRACE(to);
+    expect_refused(own_scene, from, to, words);
+  }
+}
+
+TEST_F(BadOwn, ExpressionsAreOneLine) {
+  const std::vector<OwnMistake> mistakes = {
+      {"sqrt(x^2 + y^2)", "sqrt(x^2, y^2)", {"definitions.r", "2 arguments", "must have 1"}},
+      {"k*x", "atan2(y)", {"atan2", "must have 2, as atan2(y, x)"}},
+      {"k*x", "k x", {"no operator, got \"x\"", "such as *"}},
+      {"k*x", "sin x", {"without parentheses", "sin(x)"}},
+      {"k*x", "k*x)", {"\")\" without \"(\"", "left out"}},
+      {"(px^2", "((px^2", {"not closed", "must be \")\""}},
+      {"k*x", "abs(x)", {"a corner", "must be a smooth function"}},
+      {"k*x", "gamma(x)", {"unknown function", "sqrt, exp"}},
+      {hamiltonian, "hamiltonian = \"\"", {"system.hamiltonian: empty"}},
+      {hamiltonian, "hamiltonian = 3", {"system.hamiltonian: wrong type", "must be a string"}},
+      {hamiltonian, "hamiltonian = \"H = px^2\"", {"an equation", "must be an expression alone"}}};
+  ASSERT_EQ(mistakes.size(), 11U);
+  for (const auto& [from, to, words] : mistakes) {
+    SCOPED_TRACE(to);
+    expect_refused(own_scene, from, to, words);
+  }
+}
+
+TEST_F(BadOwn, WhatHasNoValueIsOneLine) {
+  const std::vector<OwnMistake> mistakes = {
+      {"mu = 0.01", "mu = \"1/0\"", {"parameters.mu: division by zero"}},
+      {"mu = 0.01", "mu = \"sqrt(-1)\"", {"parameters.mu: no finite real value", "given -1"}},
+      {"mu = 0.01", "mu = inf", {"parameters.mu: not finite"}},
+      {"mu = 0.01", "mu = \"tan(pi/2)\"", {"parameters.mu: no finite real value", "\"tan\""}},
+      {"coordinates = [1, 0]", "coordinates = [0, 0]", {"at the start: division by zero"}},
+      {"y^2)\"", "y^2 - 2)\"", {"definitions.r: at the start: no finite real value", "given -1"}},
+      {"k*x", "log(x - 1)", {"at the start: no finite real value, got \"log\"", "given 0"}},
+      {"k*x", "(x - 1)^0.5", {"no finite equations of motion at the start"}},
+      {"k*x", "tan(x*pi/2)", {"at the start: no finite real value, got \"tan\""}}};
+  ASSERT_EQ(mistakes.size(), 9U);
+  for (const auto& [from, to, words] : mistakes) {
+    SCOPED_TRACE(to);
+    expect_refused(own_scene, from, to, words);
+  }
+}
+
+TEST_F(BadOwn, StudiesAreOneLine) {
+  const auto table = [](const string& text) { return text + "\n[nominal]"; };
+  const std::vector<OwnMistake> mistakes = {
+      {"[nominal]", table("[event]\nsurface = \"apsis\""), {"event: ", "must be an orbit"}},
+      {"[nominal]", table("[periodic]\nhold = \"z\""), {"periodic.hold", "energy, period, x"}},
+      {"[nominal]", table("[periodic]\narcs = 0"), {"periodic.arcs", "from 1 to 64"}},
+      {"[nominal]",
+       table("[periodic]\nhold = \"period\"\nvalue = -1"),
+       {"periodic.value", "above"}},
+      {"[nominal]",
+       table("[periodic.family]\nalong = \"parameters.nu\"\nto = 1"),
+       {"periodic.family.along", "parameters.mu, parameters.k"}},
+      {"[nominal]", table("[periodic.family]\nalong = \"x\""), {"periodic.family.to: missing"}},
+      {"duration_canonical = 1", "duration_canonical = -1\n[periodic]", {"periodic: no guess"}},
+      {"duration_canonical = 1", "duration_orbits = 1", {"jet.duration_orbits", "no key"}}};
+  ASSERT_EQ(mistakes.size(), 8U);
+  for (const auto& [from, to, words] : mistakes) {
+    SCOPED_TRACE(to);
+    expect_refused(own_scene, from, to, words);
+  }
+  // An orbit that closes at one time does not at another where the forces change.
+  expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",
+                 {"periodic: of a Hamiltonian that depends on the time, got t", "without t"});
+}
+
+}  // namespace
+}  // namespace hamjet::test
