@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -64,13 +65,17 @@ Vector6 with_momenta(Vector6 x) {
 
 FlowJet<double> jet_of(const DynamicalSystem& system, const std::vector<double>& start, int order,
                        double time) {
-  FlowProblem<double> flow;
-  flow.system = costate_system(system);
-  flow.initial_state = start;
-  flow.initial_state.resize(2 * start.size());
-  flow.space = SeriesSpace::create(2 * start.size(), order);
-  for (std::size_t i = 0; i < 2 * start.size(); ++i) flow.variables.push_back(i);
-  flow.duration = time;
+  const std::size_t dimension = 2 * start.size();
+  std::vector<std::size_t> variables;
+  for (std::size_t i = 0; i < dimension; ++i) variables.push_back(i);
+  std::vector<double> with_costates = start;
+  with_costates.resize(dimension);
+  const FlowProblem<double> flow = {.system = costate_system(system),
+                                    .space = SeriesSpace::create(dimension, order),
+                                    .variables = variables,
+                                    .initial_state = with_costates,
+                                    .start_time = ClockTime::epoch(),
+                                    .duration = time};
   GaussSettings settings;
   settings.tolerance = 1e-14;
   IntegrationStatistics statistics;
