@@ -190,6 +190,27 @@ std::vector<Waypoint> read_waypoints(const TableReader& transfer, const Nominal&
   return waypoints;
 }
 
+void read_thrust(const TableReader& transfer, TransferSettings& settings, bool has_ends) {
+  transfer.read_if_any("thrust", settings.thrust);
+  transfer.read_if_any("thrust_order", settings.thrust_order);
+  transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
+  if (settings.thrust != TransferThrust::energy_optimal) {
+    for (const std::string_view key : {"thrust_order", "largest_thrust_m_s2"}) {
+      if (!transfer.has(key)) continue;
+      transfer.fail(key, fmt::format("not used, got {} without a thrust that lasts, must be beside "
+                                     "thrust = \"energy-optimal\"",
+                                     transfer.found(key)));
+    }
+    return;
+  }
+  if (!has_ends) transfer.fail("thrust", "no start and end, must be there with it");
+  if (settings.times.back() < 0) {
+    transfer.fail("thrust",
+                  "transfer times before the start, must be after it with "
+                  "thrust = \"energy-optimal\"");
+  }
+}
+
 }  // namespace
 
 const TableDescription& transfer_table() {
@@ -217,6 +238,12 @@ const TableDescription& transfer_table() {
          "likewise, in periods of the nominal"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
          "also the least velocity change with as many impulses, at such times, as it takes"},
+        {"thrust", form::choice({"impulses", "energy-optimal"}), absent::value("impulses"),
+         "also the thrust that lasts, with the least integral of its squared acceleration"},
+        {"thrust_order", form::integer(1, 4), absent::value(preset.thrust_order),
+         "of its polynomials in states and costates"},
+        {"largest_thrust_m_s2", form::positive(), absent::other("any"),
+         "transfers whose thrust is at some time larger are marked, and not the least"},
         {"budget_m_s", form::positive(), absent::other("none is looked for"),
          "the times at which the whole change is no more than this are found"},
         {"largest_impulse_m_s", form::positive(), absent::other("any"),
@@ -277,6 +304,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
   settings.singular_margin = read_singular_margin(transfer, nominal);
   transfer.read_if_any("impulses", settings.impulses);
+  read_thrust(transfer, settings, has_ends);
   transfer.read_if_any("budget_m_s", settings.budget_m_s);
   transfer.read_if_any("largest_impulse_m_s", settings.largest_impulse_m_s);
   if (transfer.has("impulse_gap_s")) {

@@ -88,6 +88,19 @@ inline TransferResult whole_transfer() {
   way.forbidden = "not this way";
   result.waypoints.emplace().plans = {way};
   result.waypoints->best_plan = 0;
+  EnergyOptimalTransfer thrust;
+  thrust.time = 5;
+  thrust.condition = 6.5;
+  thrust.answers = {{1, {}, 0.5, 70, 0.07, ""}, {2, {}, 0.5625, 1.5, 0.0015, ""}};
+  thrust.refined = {2, {1, 2, 3, 4, 5, 6}, 0.5625, 1e-3, 2e-6, ""};
+  thrust.refinement_flights = 3;
+  thrust.energy_m2_s3 = 0.625;
+  thrust.change_m_s = 9.5;
+  thrust.largest_m_s2 = 0.0625;
+  thrust.exceeds_thrust = true;
+  thrust.start_thrust_m_s2 = {0.01, 0.02, 0.03};
+  thrust.end_thrust_m_s2 = {0.04, 0.05, -0.06};
+  result.thrust = {2, {thrust}, 0, ""};
   return result;
 }
 
@@ -211,7 +224,26 @@ inline std::vector<Walk> transfer_walks() {
            {0},
            {{"time_s", {"s", 5 * sample_unit_s}},
             {"total_change_m_s", {"m/s", 15}},
-            {"forbidden", {"", "not this way"}}}}};
+            {"forbidden", {"", "not this way"}}}},
+          {energy_optimal_table(result),
+           report,
+           {0},
+           {{"time_s", {"s", 5 * sample_unit_s}},
+            {"condition", {"", 6.5}},
+            {"energy_m2_s3", {"m^2/s^3", 0.625}},
+            {"energy_m2_s3_by_order", {"m^2/s^3", {0.5, 0.5625}}},
+            {"change_m_s", {"m/s", 9.5}},
+            {"largest_m_s2", {"m/s^2", 0.0625}},
+            {"exceeds_thrust", {"", true}},
+            {"start_thrust_m_s2", {"m/s^2", {0.01, 0.02, 0.03}}},
+            {"end_thrust_m_s2", {"m/s^2", {0.04, 0.05, -0.06}}},
+            {"miss_m_by_order", {"m", {70, 1.5}}},
+            {"velocity_miss_m_s_by_order", {"m/s", {0.07, 0.0015}}},
+            {"refined_miss_m", {"m", 1e-3}},
+            {"refined_velocity_miss_m_s", {"m/s", 2e-6}},
+            {"costates", {"", {1, 2, 3, 4, 5, 6}}},
+            {"refinement_flights", {"", 3}},
+            {"failure", {"", nullptr}}}}};
 }
 
 inline Walk motion_walk() {

@@ -141,6 +141,7 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_deputy_axis = {"deputy.a_km", "null"};
   static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
   static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
+  static const Override lasting_thrust = {"transfer.thrust", "\"energy-optimal\""};
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
   static const Override vector_field = {
       "system", "{model=\"own\", states=[\"x\", \"v\"], vector_field={x=\"v\", v=\"-x\"}}"};
@@ -260,6 +261,8 @@ inline const std::map<std::string, Place>& special_places() {
       {"transfer.times_s", {"", {no_count}, "[100, 200]"}},
       {"transfer.times_orbits", {"", {no_count}}},
       {"transfer.times_canonical", {"", {no_count}}},
+      {"transfer.thrust_order", {"", {lasting_thrust}}},
+      {"transfer.largest_thrust_m_s2", {"", {lasting_thrust}}},
       {"transfer.waypoint.0.time_s", {"", {waypoint}, "100"}},
       {"transfer.waypoint.0.time_orbits", {"", {waypoint, no_time}, "0.5"}},
       {"transfer.waypoint.0.time_canonical", {"", {waypoint, no_time}, "0.5"}},

@@ -71,7 +71,8 @@ class Transfers(Study, table="transfers"):
 
     The further tables, attributes with columns of their own: ``singular_times``, ``conditions`` of
     all kinds, ``budget_windows``, ``impulses`` of the optimal plan and ``least_by_time``, what
-    these cost, ``waypoints``, impulses of the way through them, and ``total_by_time``.
+    these cost, ``waypoints``, impulses of the way through them, and ``total_by_time``;
+    ``energy_optimal``, transfers with a thrust that lasts.
     """
 
     def __repr__(self) -> str:

@@ -5,6 +5,7 @@
 #include "drift_view.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
+#include "thrust_view.hpp"
 #include "transfer_tables.hpp"
 #include "transfer_view.hpp"
 #include "waypoint_view.hpp"
@@ -15,10 +16,15 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json seconds_json(const TransferSeconds& seconds) {
-  return {{"propagation", seconds.propagation}, {"singularities", seconds.singularities},
-          {"inversion", seconds.inversion},     {"solution", seconds.solution},
-          {"study", seconds.study()},           {"proof", seconds.proof},
-          {"residual", seconds.residual},       {"impulses", seconds.impulses}};
+  return {{"propagation", seconds.propagation},
+          {"singularities", seconds.singularities},
+          {"inversion", seconds.inversion},
+          {"solution", seconds.solution},
+          {"study", seconds.study()},
+          {"proof", seconds.proof},
+          {"residual", seconds.residual},
+          {"impulses", seconds.impulses},
+          {"thrust", seconds.thrust}};
 }
 
 Json counts_json(const TransferCounts& counts) {
@@ -114,6 +120,8 @@ Json transfer_summary_json(const TransferResult& result) {
   json["waypoints"] = waypoints_json(result);
   json["coasting_start"] = coasting_json(result);
   json["other_revolutions"] = revolutions_json(result);
+  json["energy_optimal_thrust"] =
+      result.thrust ? table_json(energy_optimal_table(result)) : Json(nullptr);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();

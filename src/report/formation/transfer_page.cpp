@@ -6,6 +6,7 @@
 #include "../../text/html_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "impulse_view.hpp"
+#include "thrust_view.hpp"
 #include "transfer_charts.hpp"
 #include "transfer_view.hpp"
 #include "validity_view.hpp"
@@ -102,8 +103,9 @@ std::string transfer_page(const TransferResult& result,
                   "</section>\n" + trajectory_section(result, trajectory, drawer) +
                   impulse_sections(result, drawer) + waypoint_section_html(result) +
                   coasting_section_html(result) + revolutions_section_html(result) +
-                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
-                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
+                  thrust_section_html(result) + fitted_section(miss_chart(result), drawer) +
+                  miss_table_html(result) + fitted_section(condition_chart(result), drawer) +
+                  singular_table_html(result);
   if (result.validity) {
     page.sections += fitted_section(validity_time_chart(*result.validity), drawer) +
                      validity_sections_html(*result.validity, drawer);

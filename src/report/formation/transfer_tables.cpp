@@ -8,6 +8,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "frame_columns.hpp"
+#include "thrust_view.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -351,7 +352,8 @@ std::vector<TableView> transfer_tables(const TransferResult& result) {
   return {transfers_table(result),         singular_times_table(result),
           conditions_table(result),        budget_windows_table(result),
           optimal_impulses_table(result),  least_by_time_table(result),
-          waypoint_impulses_table(result), total_by_time_table(result)};
+          waypoint_impulses_table(result), total_by_time_table(result),
+          energy_optimal_table(result)};
 }
 
 }  // namespace hamjet::io

@@ -9,6 +9,7 @@
 #include "drift_view.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_view.hpp"
+#include "thrust_view.hpp"
 #include "waypoint_view.hpp"
 
 namespace hamjet::io {
@@ -242,8 +243,9 @@ std::string budget_text(const TransferResult& result) {
 std::string transfer_verdict(const TransferResult& result) {
   const std::optional<std::size_t> best = result.best_point();
   std::string further;
-  for (const std::string& one : {optimal_impulses_verdict(result), waypoint_verdict(result),
-                                 coasting_verdict(result), revolutions_verdict(result)}) {
+  for (const std::string& one :
+       {optimal_impulses_verdict(result), waypoint_verdict(result), coasting_verdict(result),
+        revolutions_verdict(result), thrust_verdict(result)}) {
     if (!one.empty()) further += " " + one;
   }
   if (!best) {
@@ -300,6 +302,9 @@ std::string transfer_failure(const TransferResult& result) {
   }
   if (const std::string failure = revolutions_failure(result); !failure.empty()) {
     return "other revolutions: " + failure;
+  }
+  if (const std::string failure = thrust_failure(result); !failure.empty()) {
+    return "energy-optimal thrust: " + failure;
   }
   const TransferCounts counts = count_points(result);
   const std::size_t forbidden = counts.over_impulse + counts.kept_out + counts.below_surface;

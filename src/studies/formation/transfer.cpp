@@ -14,6 +14,7 @@
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
 #include "coasting_transfer.hpp"
+#include "energy_optimal.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
@@ -141,6 +142,10 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.optimal =
         optimal_impulses(scene, points.problem(), points.linear_flow(), result, progress);
   }
+  if (settings.thrust == TransferThrust::energy_optimal) {
+    const Stopwatch watch(result.seconds.thrust);
+    result.thrust = energy_optimal_transfers(scene, problem, progress);
+  }
   if (scene.validity) result.validity = study_validity(asked, progress);
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
@@ -164,14 +169,17 @@ int exit_code(const TransferResult& result) {
   const bool has_allowed = result.best_point() || (result.optimal && result.optimal->is_found()) ||
                            (result.waypoints && result.waypoints->best_plan) ||
                            (result.coasting && result.coasting->plan) ||
-                           (result.revolutions && result.revolutions->best);
+                           (result.revolutions && result.revolutions->best) ||
+                           (result.thrust && result.thrust->least);
   if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
   if (result.optimal && (!result.optimal->is_found() || !result.optimal->is_proved())) {
     return static_cast<int>(ErrorKind::check_failed);
   }
   const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
   const bool lacks_revolutions = result.revolutions && !result.revolutions->best;
-  if (lacks_way || lacks_revolutions || (result.coasting && !result.coasting->plan)) {
+  const bool lacks_thrust = result.thrust && !result.thrust->least;
+  if (lacks_way || lacks_revolutions || lacks_thrust ||
+      (result.coasting && !result.coasting->plan)) {
     return static_cast<int>(ErrorKind::check_failed);
   }
   const bool is_failed = has_failed(result.checks) || (result.scene.transfer->strict && has_fault);

@@ -55,6 +55,12 @@ enum class TransferImpulses {
   optimal,  ///< in addition, impulses of least cost, of free number and times
 };
 
+/// The thrust by which a transfer is made.
+enum class TransferThrust {
+  impulses,        ///< impulses alone
+  energy_optimal,  ///< in addition, a thrust that lasts, of least energy
+};
+
 /// Table `[transfer]`: from one relative state to another in given times.
 struct TransferSettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of both ends
@@ -74,6 +80,9 @@ struct TransferSettings {
   /// are marked.
   double singular_margin = 0;
   TransferImpulses impulses = TransferImpulses::two;
+  TransferThrust thrust = TransferThrust::impulses;
+  int thrust_order = 3;  ///< of the jets in states and costates, twelve variables
+  std::optional<double> largest_thrust_m_s2;  ///< largest acceleration that its thruster has
   std::optional<double> budget_m_s;  ///< if given, spans of time are sought in which a transfer
                                      ///< costs no more than this
   std::optional<double> largest_impulse_m_s;  ///< largest impulse that a transfer may have

@@ -1,0 +1,174 @@
+#include "thrust_view.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "../../formats/relative_frame_text.hpp"
+#include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../drawing/report_page.hpp"
+#include "impulse_view.hpp"
+#include "transfer_view.hpp"
+
+namespace hamjet::io {
+namespace {
+
+using Thrusted = const EnergyOptimalTransfer&;
+
+/// What `value` makes of a transfer that was found, none of any other.
+template <class Value>
+auto where_found(Value value) {
+  return [value](Thrusted one) {
+    return one.is_found() ? std::optional(std::invoke(value, one)) : std::nullopt;
+  };
+}
+
+/// A column with a number for each polynomial order, 1 to N.
+template <class Value>
+void add_by_thrust_order(ResultTable<EnergyOptimalTransfer>& table, int orders,
+                         const std::string& name, std::string unit, std::string meaning,
+                         Value value) {
+  std::vector<std::string> parts;
+  for (int order = 1; order <= orders; ++order) {
+    parts.push_back(fmt::format("{}_order_{}", name, order));
+  }
+  table.add_array(name + "_by_order", std::move(parts), std::move(unit), std::move(meaning),
+                  [orders, value](Thrusted one) {
+                    std::vector<std::optional<double>> values(static_cast<std::size_t>(orders));
+                    for (std::size_t i = 0; i < one.answers.size(); ++i) {
+                      const EnergyOptimalAnswer& answer = one.answers[i];
+                      if (answer.failure.empty()) values[i] = std::invoke(value, answer);
+                    }
+                    return values;
+                  });
+}
+
+void add_thrust(ResultTable<EnergyOptimalTransfer>& table, RelativeFrame frame,
+                const std::string& end, Eigen::Vector3d EnergyOptimalTransfer::*thrust) {
+  std::vector<std::string> parts;
+  for (const std::string_view axis : axis_columns(frame)) {
+    parts.push_back(fmt::format("{}_thrust_{}_m_s2", end, axis));
+  }
+  table.add_array(end + "_thrust_m_s2", std::move(parts), "m/s^2",
+                  fmt::format("the acceleration at the {}, along the frame's axes then", end),
+                  where_found(thrust));
+}
+
+const EnergyOptimalTransfer* least_thrust(const TransferResult& result) {
+  return result.thrust && result.thrust->least ? &result.thrust->transfers[*result.thrust->least]
+                                               : nullptr;
+}
+
+}  // namespace
+
+TableView energy_optimal_table(const TransferResult& result) {
+  const Scene& scene = result.scene;
+  const double unit = scene.units.time_s;
+  const RelativeFrame frame = scene.transfer->frame;
+  const int orders = result.thrust ? result.thrust->order : scene.transfer->thrust_order;
+  ResultTable<EnergyOptimalTransfer> table(
+      "energy_optimal", "/energy_optimal_thrust", {"times"},
+      "Thrust that lasts and takes the least integral of |u|^2 / 2, u its acceleration.");
+  table.add("time_s", "s", "of the transfer", [=](Thrusted one) { return one.time * unit; });
+  table.add(
+      "condition", "", "of the linear part that is inverted, states by costates",
+      [](Thrusted one) { return one.condition > 0 ? std::optional(one.condition) : std::nullopt; });
+  table.add("energy_m2_s3", "m^2/s^3", "the integral of |u|^2 / 2 along the flight",
+            where_found(&EnergyOptimalTransfer::energy_m2_s3));
+  add_by_thrust_order(table, orders, "energy_m2_s3", "m^2/s^3",
+                      "the same by the generating function of the orders 1 to N",
+                      &EnergyOptimalAnswer::energy_m2_s3);
+  table.add("change_m_s", "m/s", "the integral of |u| along the flight",
+            where_found(&EnergyOptimalTransfer::change_m_s));
+  table.add("largest_m_s2", "m/s^2", "the largest |u|, among the nodes of that integral",
+            where_found(&EnergyOptimalTransfer::largest_m_s2));
+  table.add("exceeds_thrust", "", "whether that is more than the scene's largest_thrust_m_s2",
+            &EnergyOptimalTransfer::exceeds_thrust);
+  add_thrust(table, frame, "start", &EnergyOptimalTransfer::start_thrust_m_s2);
+  add_thrust(table, frame, "end", &EnergyOptimalTransfer::end_thrust_m_s2);
+  add_by_thrust_order(table, orders, "miss_m", "m",
+                      "how far from the wanted place the thrust of the orders 1 to N leads, flown",
+                      &EnergyOptimalAnswer::miss_m);
+  add_by_thrust_order(table, orders, "velocity_miss_m_s", "m/s", "how far from the wanted velocity",
+                      &EnergyOptimalAnswer::velocity_miss_m_s);
+  const auto of_refined = [](auto value) {
+    return where_found([value](Thrusted one) { return std::invoke(value, *one.refined); });
+  };
+  table.add("refined_miss_m", "m", "of the answer that flying corrected",
+            of_refined(&EnergyOptimalAnswer::miss_m));
+  table.add("refined_velocity_miss_m_s", "m/s", "likewise",
+            of_refined(&EnergyOptimalAnswer::velocity_miss_m_s));
+  table.add_array("costates",
+                  {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
+                  "", "at the start, in the scene's canonical units along inertial axes",
+                  of_refined(&EnergyOptimalAnswer::costates));
+  table.add("refinement_flights", "", "that the correction took",
+            &EnergyOptimalTransfer::refinement_flights);
+  table.add("failure", "", "why there is none", &EnergyOptimalTransfer::failure);
+  const auto rows = result.thrust ? result.thrust->transfers : std::vector<EnergyOptimalTransfer>();
+  return std::move(table).view(rows, {rows.size()});
+}
+
+std::string thrust_failure(const TransferResult& result) {
+  return result.thrust ? result.thrust->failure : "";
+}
+
+std::string thrust_verdict(const TransferResult& result) {
+  if (!result.thrust) return "";
+  const EnergyOptimalTransfer* least = least_thrust(result);
+  if (least == nullptr) {
+    return fmt::format("No thrust of least energy can be named: {}.", thrust_failure(result));
+  }
+  return fmt::format(
+      "Thrust of least energy takes {} at the least, over {}, never more than {:.3g} m/s^2; by "
+      "order {} alone it misses by {}.",
+      velocity_text(least->change_m_s), time_text(seconds(result, least->time)),
+      least->largest_m_s2, least->answers.back().order,
+      miss_text(least->answers.back().miss_m, result.flight_floor_m));
+}
+
+std::string thrust_lines(const TransferResult& result) {
+  if (!result.thrust) return "";
+  const EnergyOptimalTransfer* least = least_thrust(result);
+  if (least == nullptr) {
+    return fmt::format("  lasting thrust   not found: {}\n", thrust_failure(result));
+  }
+  return fmt::format("  lasting thrust   {} over {}, at most {:.3g} m/s^2: misses by {}\n",
+                     velocity_text(least->change_m_s), time_text(seconds(result, least->time)),
+                     least->largest_m_s2, miss_text(least->refined->miss_m, result.flight_floor_m));
+}
+
+std::string thrust_section_html(const TransferResult& result) {
+  if (!result.thrust) return "";
+  const std::vector<std::string> names = {
+      "time (s)",           "change (m/s)",
+      "largest (m/s^2)",    "energy (m^2/s^3)",
+      "by the polynomials", fmt::format("miss of order {} (m)", result.thrust->order),
+      "corrected (m)"};
+  std::string rows;
+  for (const EnergyOptimalTransfer& one : result.thrust->transfers) {
+    rows += "<tr>" + row_name_cell(fmt::format("{:.6g}", seconds(result, one.time)));
+    if (!one.is_found()) {
+      rows += fmt::format("<td colspan=\"6\">{}</td></tr>\n", escape_html(one.failure));
+      continue;
+    }
+    const EnergyOptimalAnswer& answer = one.answers.back();
+    rows +=
+        cell(fmt::format("{:.5g}", one.change_m_s)) +
+        cell(fmt::format("{:.4g}{}", one.largest_m_s2, one.exceeds_thrust ? " (too much)" : "")) +
+        cell(fmt::format("{:.6g}", one.energy_m2_s3)) +
+        cell(fmt::format("{:.6g}", answer.energy_m2_s3)) +
+        cell(fmt::format("{:.3g}", answer.miss_m)) +
+        cell(fmt::format("{:.3g}", one.refined->miss_m)) + "</tr>\n";
+  }
+  return "<section>\n<h2>Thrust of least energy</h2>\n<p>" + escape_html(thrust_verdict(result)) +
+         "</p>\n" +
+         table_html("By transfer time, flown with the full equations of motion.",
+                    "<tr>" + header_cells(names) + "</tr>", rows) +
+         "</section>\n";
+}
+
+}  // namespace hamjet::io

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "../../store/result_table.hpp"
+#include "hamjet/studies/transfer.hpp"
+
+// What page, files and the terminal say about transfers with a thrust that lasts.
+
+namespace hamjet::io {
+
+/// The energy-optimal transfers, one row a time; no rows where none were asked for.
+TableView energy_optimal_table(const TransferResult& result);
+
+/// What the least of them takes, or why there is none; empty where none were asked for.
+std::string thrust_verdict(const TransferResult& result);
+/// Why there is none that was asked for; empty if there is.
+std::string thrust_failure(const TransferResult& result);
+
+/// Lines of the terminal's table, and a section of the page.
+std::string thrust_lines(const TransferResult& result);
+std::string thrust_section_html(const TransferResult& result);
+
+}  // namespace hamjet::io

@@ -1,0 +1,135 @@
+#include "dynamics/costate_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
+
+#include "hamjet/detail/algebra/monomial_values.hpp"
+#include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/error.hpp"
+#include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/maps/generating_function.hpp"
+#include "hamjet/maps/symplecticity.hpp"
+
+namespace hamjet {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// Motion relative to a circular orbit in rotating axes (Hill's equations) with the mean motion 1:
+/// p = v + (-y, x, 0).
+DynamicalSystem clohessy_wiltshire() {
+  return make_system("Clohessy-Wiltshire", 3, [](const auto& q, const auto& p) {
+    return (square(p[0]) + square(p[1]) + square(p[2])) / 2 + q[1] * p[0] - q[0] * p[1] +
+           (square(q[1]) + square(q[2]) - 2 * square(q[0])) / 2;
+  });
+}
+
+/// The closed form of its transition matrix in (q, v) (Clohessy and Wiltshire 1960).
+Matrix6 transition(double t) {
+  const double s = std::sin(t);
+  const double c = std::cos(t);
+  Matrix6 phi;
+  phi << 4 - 3 * c, 0, 0, s, 2 * (1 - c), 0,              //
+      6 * (s - t), 1, 0, -2 * (1 - c), 4 * s - 3 * t, 0,  //
+      0, 0, c, 0, 0, s,                                   //
+      3 * s, 0, 0, c, 2 * s, 0,                           //
+      -6 * (1 - c), 0, 0, -2 * s, 4 * c - 3, 0,           //
+      0, 0, -s, 0, 0, c;
+  return phi;
+}
+
+/// The controllability Gramian over a time: the integral of Phi(s) B B^T Phi(s)^T.
+Matrix6 gramian(double time) {
+  Matrix6 sum = Matrix6::Zero();
+  using Rule = boost::math::quadrature::gauss<double, 30>;
+  for (std::size_t k = 0; k < Rule::abscissa().size(); ++k) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Matrix6 phi = transition(time / 2 * (1 + sign * Rule::abscissa()[k]));
+      sum += Rule::weights()[k] * time / 2 * phi.rightCols<3>() * phi.rightCols<3>().transpose();
+    }
+  }
+  return sum;
+}
+
+/// (q, p) from (q, v).
+Vector6 with_momenta(Vector6 x) {
+  x[3] -= x[1];
+  x[4] += x[0];
+  return x;
+}
+
+FlowJet<double> jet_of(const DynamicalSystem& system, const std::vector<double>& start, int order,
+                       double time) {
+  const std::size_t dimension = 2 * start.size();
+  std::vector<std::size_t> variables;
+  for (std::size_t i = 0; i < dimension; ++i) variables.push_back(i);
+  std::vector<double> with_costates = start;
+  with_costates.resize(dimension);
+  const FlowProblem<double> flow = {.system = costate_system(system),
+                                    .space = SeriesSpace::create(dimension, order),
+                                    .variables = variables,
+                                    .initial_state = with_costates,
+                                    .start_time = ClockTime::epoch(),
+                                    .duration = time};
+  GaussSettings settings;
+  settings.tolerance = 1e-14;
+  IntegrationStatistics statistics;
+  return integrate_gauss<double>(flow, settings, statistics);
+}
+
+// The least energy between two states of a linear system is d^T W^-1 d / 2 with the Gramian W and
+// the distance d of the end from where the start drifts to.
+TEST(CostateSystem, EnergyOfALinearSystemIsThatOfItsGramian) {
+  const double time = 2.3;
+  const FlowJet<double> jet = jet_of(clohessy_wiltshire(), std::vector<double>(6), 2, time);
+  const auto inversion = invert_partially(jet, parse_kind("F1", 6));
+  const Series<double> cost = generating_function(one_form(inversion));
+  MonomialValues values(cost.space_pointer());
+  Vector6 start;
+  start << 0.3, -0.7, 0.2, 0.1, 0.4, -0.6;
+  Vector6 end;
+  end << -0.2, 0.5, 0.9, -0.3, 0.2, 0.1;
+  const Vector6 p0 = with_momenta(start);
+  const Vector6 p1 = with_momenta(end);
+  std::vector<double> ends(p1.data(), p1.data() + 6);
+  ends.insert(ends.end(), p0.data(), p0.data() + 6);
+  values.set_point(ends);
+  const Vector6 distance = end - transition(time) * start;
+  const double least = distance.dot(gramian(time).ldlt().solve(distance)) / 2;
+  // The inversion amplifies the rounding of the flow by its condition.
+  const double allowance =
+      100 * inversion.amplification * std::numeric_limits<double>::epsilon() * least;
+  EXPECT_NEAR(-values.value(cost, 2), least, allowance);
+  EXPECT_LT(allowance, 1e-9 * least);
+  // A linear system has no further degrees, to rounding.
+  for (const Series<double>& series : jet) {
+    for (const double c : series.slice(2)) EXPECT_LT(std::abs(c), 1e-13);
+  }
+}
+
+// Gauss maps are symplectic in states and costates too, about the paper's orbit: to the rounding
+// that some hundred operations a step leave in each of the jet's numbers.
+TEST(CostateSystem, FlowAboutTheChiefIsSymplectic) {
+  ZonalGravity field;
+  field.radius = 0.9;
+  field.J[2] = 1.082626675e-3;
+  field.J[3] = -2.532436e-6;
+  const FlowJet<double> jet = jet_of(zonal_gravity(field), {1, 0, 0, 0, 0.6, 0.98}, 3, 4.0);
+  for (const SymplecticityDefect& defect : symplecticity_by_degree(jet)) {
+    EXPECT_LT(defect.scaled, 1e-13) << "degree " << defect.degree;
+  }
+}
+
+TEST(CostateSystem, RefusesParameters) {
+  DynamicalSystem system = clohessy_wiltshire();
+  system.parameters = 1;
+  EXPECT_THROW(costate_system(system), Error);
+}
+
+}  // namespace
+}  // namespace hamjet
