@@ -4,6 +4,7 @@ import os
 
 import numpy as np
 
+from air import density_profiles
 from flight import LIBRARY, PI, REAL, Field, address
 
 SHIPPED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "data", "gravity",
@@ -122,19 +123,30 @@ class Orientation:
 class EarthField(Field):
     """Flights along GCRF; times are seconds after the epoch."""
 
-    def __init__(self, degree, order, sun, moon, epoch, orientation=None):
+    def __init__(self, degree, order, sun, moon, epoch, orientation=None, air=None):
+        """The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
+        factor of all densities."""
+        self._settings = degree, order, sun, moon, epoch, orientation
+        self.air = air
         mu, radius, C, S = shipped_field()
         super().__init__(mu, radius)
         below = [(n, m) for n in range(degree + 1) for m in range(n + 1)]
         of_degree = [np.array([x[n, m] if m <= order else 0 for n, m in below], dtype=REAL)
                      for x in (C, S)]
         constants = np.array([mu, radius, MU_SUN if sun else 0, MU_MOON if moon else 0,
-                              epoch.seconds, -epoch.tai_minus_utc() - TT_MINUS_TAI], dtype=REAL)
+                              epoch.seconds, -epoch.tai_minus_utc() - TT_MINUS_TAI,
+                              air[2] if air else 0], dtype=REAL)
         day = np.array([epoch.julian_day])
         rows = np.zeros((0, 6), dtype=REAL) if orientation is None else orientation.rows
+        profiles = density_profiles(air[0]) if air else np.zeros((0, 0, 9), dtype=REAL)
         self._earth = LIBRARY.make_earth(degree, *(address(x) for x in of_degree),
                                          address(constants), address(day), len(rows),
-                                         address(rows))
+                                         address(rows), air[1] if air else 0, *profiles.shape[:2],
+                                         address(profiles))
+
+    def with_drag(self, drag_m2_kg):
+        """The same Earth for a spacecraft that the air brakes otherwise."""
+        return EarthField(*self._settings, (*self.air[:2], drag_m2_kg))
 
     def __del__(self):
         LIBRARY.delete_earth(self._earth)

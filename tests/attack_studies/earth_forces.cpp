@@ -103,6 +103,38 @@ constexpr Real OrientationRow::*members[] = {&OrientationRow::ut1_minus_tt_s,
                                              &OrientationRow::pole_x, &OrientationRow::pole_y,
                                              &OrientationRow::offset_x, &OrientationRow::offset_y};
 
+/// The height above the ellipsoid of WGS 84, in metres, of a point outside it. With the foot's
+/// normal x - x_f = s (x_f/a^2, y_f/a^2, z_f/b^2) the foot lies on the ellipsoid where
+///   (a p / (a^2 + s))^2 + (b z / (b^2 + s))^2 = 1 ,
+/// whose left side is convex, so that Newton's method from s = 0 never goes too far.
+Real height_of(const Vector& x) {
+  constexpr Real a = 6378137, b = a * (1 - 1 / 298.257223563L);
+  const Real p = std::hypot(x[0], x[1]), z = x[2];
+  Real s = 0;
+  for (int k = 0; k < 30; ++k) {
+    const Real across = p / (a * a + s), along = z / (b * b + s);
+    const Real excess = a * a * across * across + b * b * along * along - 1;
+    const Real slope =
+        -2 * (a * a * across * across / (a * a + s) + b * b * along * along / (b * b + s));
+    const Real step = -excess / slope;
+    s += step;
+    if (std::abs(step) <= 1e-20L * a * a) break;
+  }
+  return s * std::hypot(p / (a * a + s), z / (b * b + s));
+}
+
+Real density_of(const std::vector<DensityPiece>& profile, Real height_km) {
+  const auto above = std::upper_bound(
+      profile.begin(), profile.end(), height_km,
+      [](Real height, const DensityPiece& piece) { return height < piece.height_km; });
+  const bool is_below = above == profile.begin();
+  const DensityPiece& piece = is_below ? *above : *(above - 1);
+  const Real d = height_km - piece.height_km;
+  Real log_density = 0;
+  for (int k = is_below ? 1 : 7; k >= 0; --k) log_density = log_density * d + piece.log_density[k];
+  return std::exp(log_density);
+}
+
 }  // namespace
 
 Earth::Earth(EarthSettings settings) : settings_(std::move(settings)) {
@@ -188,7 +220,7 @@ const Earth::Day& Earth::day(long number) {
   for (int k = 0; k < nodes; ++k) {
     const Real angle = pi * (k + 0.5L) / nodes;
     double values[components];
-    sample((Real(number) + (1 + std::cos(angle)) / 2) * day_s, values);
+    sample((Real(number) + std::cos(angle) / 2) * day_s, values);
     for (int j = 0; j < nodes; ++j) {
       const Real weight = (j == 0 ? 1 : 2) * std::cos(j * angle) / nodes;
       for (int c = 0; c < components; ++c) coefficients[j][c] += weight * values[c];
@@ -199,9 +231,9 @@ const Earth::Day& Earth::day(long number) {
 
 const Earth::Values& Earth::slow(Real time) {
   if (has_slow_ && slow_time_ == time) return slow_;
-  const Real whole = std::floor(time / day_s);
+  const Real whole = std::round(time / day_s);
   const Day& coefficients = day(long(whole));
-  const Real x = 2 * (time / day_s - whole) - 1;
+  const Real x = 2 * (time / day_s - whole);
   // Clenshaw's recurrence.
   Values next{}, after{};
   for (int j = nodes - 1; j > 0; --j) {
@@ -295,6 +327,29 @@ Matrix Earth::rate_of_itrf(Real time) {
     }
   }
   return rate;
+}
+
+/// The apex of the bulge is the direction of the Sun, turned by two hours about the z axis of GCRF
+/// (Montenbruck and Gill, section 3.5); its share is cos^n(psi/2) of the angle to it. The air turns
+/// about the third axis of ITRF.
+Drag Earth::drag(const Vector& x, Real time) {
+  const Matrix fixed = itrf(time);
+  const Real height_km = height_of(apply(fixed, x)) / 1000;
+  const auto& profiles = settings_.air.profiles;
+  Real density = density_of(profiles[0], height_km);
+  if (profiles.size() > 1) {
+    const Values& now = slow(time);
+    const Vector apex = apply(turned(2, -pi / 6), {now[4], now[5], now[6]});
+    const Real cosine =
+        (apex[0] * x[0] + apex[1] * x[1] + apex[2] * x[2]) / std::cbrt(cube(apex) * cube(x));
+    const Real share = std::pow((1 + cosine) / 2, settings_.air.exponent / Real(2));
+    density += share * (density_of(profiles[1], height_km) - density);
+  }
+  constexpr Real turn = 7.292115e-5L;
+  const Vector& w = fixed[2];
+  return {density * settings_.air.drag_m2_kg / 2,
+          {turn * (w[1] * x[2] - w[2] * x[1]), turn * (w[2] * x[0] - w[0] * x[2]),
+           turn * (w[0] * x[1] - w[1] * x[0])}};
 }
 
 Vector Earth::acceleration(const Vector& x, Real time) {

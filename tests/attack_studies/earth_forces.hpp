@@ -13,6 +13,27 @@ using Real = long double;
 using Vector = std::array<Real, 3>;
 using Matrix = std::array<Vector, 3>;
 
+/// The coefficients of ln rho, kg/m^3, in kilometres above a height; below the first height the
+/// line through it goes on.
+struct DensityPiece {
+  Real height_km;
+  std::array<Real, 8> log_density;
+};
+
+/// Air that turns with the Earth, of one profile or of two: the least density and that of a bulge
+/// which follows the Sun.
+struct Air {
+  std::vector<std::vector<DensityPiece>> profiles;
+  Real drag_m2_kg;  ///< C_D A / m times the factor of all densities
+  int exponent;     ///< of the bulge's cosine
+};
+
+/// Drag is -rate |v - wind| (v - wind) per unit of mass.
+struct Drag {
+  Real rate = 0;
+  Vector wind{};
+};
+
 enum class Axes { itrf, eme2000, mod, tod };
 
 /// A row of finals2000A, with angles in radians.
@@ -30,6 +51,7 @@ struct EarthSettings {
   Real tt_seconds;                   ///< of the epoch after it
   Real ut1_minus_tt_s;               ///< at all times, without rows
   std::vector<OrientationRow> rows;
+  Air air;  ///< without profiles there is none
 };
 
 class Earth {
@@ -38,6 +60,8 @@ class Earth {
 
   /// Of a place along GCRF, at seconds after the epoch.
   Vector acceleration(const Vector& x, Real time);
+  bool has_air() const { return !settings_.air.profiles.empty(); }
+  Drag drag(const Vector& x, Real time);
   /// The matrix from GCRF.
   Matrix axes(Axes axes, Real time);
   /// d/dt of that to ITRF, per second.
@@ -48,7 +72,8 @@ class Earth {
   static constexpr int components = 10;
   static constexpr int nodes = 15;
   using Values = std::array<Real, components>;
-  /// Coefficients of Chebyshev's polynomials on a day from the epoch.
+  /// Coefficients of Chebyshev's polynomials on a day about a whole number of days after the epoch:
+  /// a rate at the epoch has no seam of two pieces, which ERFA's own rounding parts.
   using Day = std::array<Values, nodes>;
 
   void sample(Real time, double* values) const;

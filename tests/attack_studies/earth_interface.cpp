@@ -13,10 +13,12 @@ using attack::Matrix;
 extern "C" {
 
 /// `constants` are mu, radius, mu of Sun and Moon, seconds of TT after the midnight at the Julian
-/// date `tt_day`, and UT1 - TT; of `rows` there are six numbers each, as in OrientationRow.
+/// date `tt_day`, UT1 - TT, and C_D A / m; of `rows` there are six numbers each, as in
+/// OrientationRow. Of `pieces` of each of `profiles` there are nine, as in DensityPiece.
 void* make_earth(int degree, const long double* C, const long double* S,
                  const long double* constants, const double* tt_day, int rows,
-                 const long double* of_rows) {
+                 const long double* of_rows, int exponent, int profiles, int pieces,
+                 const long double* of_pieces) {
   EarthSettings settings{};
   const int count = (degree + 1) * (degree + 2) / 2;
   settings.degree = degree;
@@ -32,6 +34,15 @@ void* make_earth(int degree, const long double* C, const long double* S,
   for (int i = 0; i < rows; ++i, of_rows += 6) {
     settings.rows.push_back(
         {of_rows[0], of_rows[1], of_rows[2], of_rows[3], of_rows[4], of_rows[5]});
+  }
+  settings.air.drag_m2_kg = constants[6];
+  settings.air.exponent = exponent;
+  for (int p = 0; p < profiles; ++p) {
+    auto& profile = settings.air.profiles.emplace_back(pieces);
+    for (attack::DensityPiece& piece : profile) {
+      piece.height_km = *of_pieces++;
+      for (attack::Real& coefficient : piece.log_density) coefficient = *of_pieces++;
+    }
   }
   return new Earth(settings);
 }

@@ -9,6 +9,7 @@ from flight import REAL
 
 FIRST, LAST = datetime.date(1970, 1, 1), datetime.date(2050, 12, 31)
 MOST_DAYS = 4
+MOST_DAYS_IN_AIR = 1.5
 TABLE_DAYS = MOST_DAYS + 8
 
 
@@ -56,7 +57,32 @@ class EarthScene(Scene):
             system["orientation_file"] = "finals.txt"
             orientation = Orientation(draw, self.epoch, TABLE_DAYS)
             self.files["finals.txt"] = orientation.text
-        self.field = EarthField(degree, order, sun, moon, self.epoch, orientation)
+        self.field = EarthField(degree, order, sun, moon, self.epoch, orientation,
+                                self._draw_air(system) if draw.chance(0.45) else None)
+
+    def _draw_air(self, system):
+        draw = self.draw
+        model = system["atmosphere"] = draw.one_of(["harris-priester", "exponential"], [2, 1])
+        self.density_factor, exponent = 1.0, 4
+        if draw.chance(0.4):
+            self.density_factor = system["density_factor"] = draw.logarithmic(0.3, 3)
+        if draw.chance(0.5):
+            exponent = system["bulge_exponent"] = draw.one_of([2, 4, 6])
+        self.tables["spacecraft"], drag = self.draw_spacecraft()
+        return model, exponent, drag * REAL(self.density_factor)
+
+    def draw_spacecraft(self):
+        """A table [spacecraft], and its C_D A / m."""
+        draw = self.draw
+        drag = draw.logarithmic(5e-4, 0.05)
+        if draw.chance(0.6):
+            return {"drag_m2_kg": drag}, REAL(drag)
+        table = {"mass_kg": draw.logarithmic(1, 2000)}
+        coefficient = 2.2
+        if draw.chance(0.6):
+            coefficient = table["drag_coefficient"] = draw.uniform(2, 3)
+        table["area_m2"] = rounded(drag * table["mass_kg"] / coefficient)
+        return table, REAL(coefficient) * REAL(table["area_m2"]) / REAL(table["mass_kg"])
 
     def _draw_epoch(self, nominal):
         draw = self.draw
@@ -118,7 +144,9 @@ class EarthScene(Scene):
         self.has_node = True
 
     def _draw_duration(self, jet, revolutions, may_go_back, whole):
-        most = MOST_DAYS * 86400 / float(self.period)
+        # Air that is dense brings an orbit down within days.
+        days = MOST_DAYS if self.field.air is None else MOST_DAYS_IN_AIR
+        most = days * 86400 / float(self.period)
         low, high = revolutions
         super()._draw_duration(jet, (min(low, most / 2), min(high, math.floor(2 * most) / 2)),
                                may_go_back, whole)

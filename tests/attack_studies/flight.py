@@ -14,9 +14,10 @@ def _library():
     whole, pointer = ctypes.c_int, ctypes.c_void_p
     field = [pointer, whole, pointer, pointer, pointer]
     library.fly.argtypes = [whole, pointer, *field, whole, pointer, pointer, pointer]
-    library.least_separations.argtypes = [whole, pointer, pointer, *field, pointer, whole, pointer,
-                                          pointer, pointer]
-    library.make_earth.argtypes = [whole, pointer, pointer, pointer, pointer, whole, pointer]
+    library.least_separations.argtypes = [whole, pointer, pointer, *field[:-1], pointer, pointer,
+                                          pointer, whole, pointer, pointer, pointer]
+    library.make_earth.argtypes = [whole, pointer, pointer, pointer, pointer, whole, pointer, whole,
+                                   whole, whole, pointer]
     library.make_earth.restype = pointer
     library.delete_earth.argtypes = [pointer]
     library.axes_of_earth.argtypes = [pointer, whole, pointer, pointer]
@@ -69,16 +70,20 @@ class Field:
         """States at one time, 0 included."""
         return self.fly(starts, [time], tolerance, begin)[..., 0, :]
 
-    def least_separations(self, first, second, start, end, looks=9, tolerance=PAIR_TOLERANCE):
-        """Least separations of pairs within times after their states, and when."""
+    def least_separations(self, first, second, start, end, looks=9, tolerance=PAIR_TOLERANCE,
+                          of_second=None):
+        """Least separations of pairs within times after their states, and when. The second ones fly
+        in a field of their own, if there is one."""
         first = np.ascontiguousarray(np.broadcast_to(first, np.shape(second)), dtype=REAL)
         second = np.ascontiguousarray(second, dtype=REAL)
         count = second.reshape(-1, 6).shape[0]
         separations, times = np.empty(count, dtype=REAL), np.empty(count, dtype=REAL)
         window, tolerance = np.array([start, end], dtype=REAL), np.array([tolerance], dtype=REAL)
         begin = np.zeros(1, dtype=REAL)
-        if LIBRARY.least_separations(count, address(first), address(second),
-                                     *self._arguments(begin), address(window), looks,
+        *field, start_of_clock = self._arguments(begin)
+        other = (of_second or self)._earth
+        if LIBRARY.least_separations(count, address(first), address(second), *field, other, start_of_clock,
+                                     address(window), looks,
                                      address(tolerance), address(separations), address(times)):
             raise FlightFailed()
         return separations, times

@@ -60,9 +60,65 @@ Vector acceleration(const Field& field, const Vector& x, Real time) {
   return a;
 }
 
+/// What acts at a place: an acceleration and, in the air, a drag that depends on the velocity.
+struct Force {
+  Vector a;
+  attack::Drag drag;
+};
+
+bool has_air(const Field& field) { return field.earth && field.earth->has_air(); }
+
+Force force(const Field& field, const Vector& x, Real time) {
+  Force there{acceleration(field, x, time), {}};
+  if (has_air(field)) there.drag = field.earth->drag(x, time);
+  return there;
+}
+
+/// Changes a velocity by what acts at rest for a time: with a drag by the mean of the velocities
+/// before and after, so that the same time backwards undoes it.
+void kick(const Force& there, Real time, Vector& v) {
+  Vector after = v;
+  for (int k = 0; k < 20; ++k) {
+    Vector through;
+    for (int i = 0; i < 3; ++i) through[i] = (v[i] + after[i]) / 2 - there.drag.wind[i];
+    const Real rate = there.drag.rate * norm(through);
+    Real changed = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Real next = v[i] + time * (there.a[i] - rate * through[i]);
+      changed = std::max(changed, std::abs(next - after[i]));
+      after[i] = next;
+    }
+    if (there.drag.rate == 0 || changed <= 1e-20L * norm(after)) break;
+  }
+  v = after;
+}
+
+/// As parts(), with a drag: half a kick before and after each part, which is symmetric in time as a
+/// whole, so that errors have even powers of the step alone.
+State parts_in_air(const Field& field, const State& start, const Force& first, Real time, Real step,
+                   int n) {
+  const Real h = step / n;
+  State change{};
+  Vector v = start.v, x;
+  Force there = first;
+  for (int k = 1; k <= n; ++k) {
+    kick(there, h / 2, v);
+    for (int i = 0; i < 3; ++i) {
+      change.x[i] += h * v[i];
+      x[i] = start.x[i] + change.x[i];
+    }
+    there = force(field, x, time + k * h);
+    kick(there, h / 2, v);
+  }
+  for (int i = 0; i < 3; ++i) change.v[i] = v[i] - start.v[i];
+  return change;
+}
+
 /// Increments of position and velocity over a step by Störmer's rule with n parts.
-State parts(const Field& field, const State& start, const Vector& first, Real time, Real step,
+State parts(const Field& field, const State& start, const Force& there, Real time, Real step,
             int n) {
+  if (has_air(field)) return parts_in_air(field, start, there, time, step, n);
+  const Vector& first = there.a;
   const Real h = step / n;
   State change{};
   Vector slope, x;
@@ -84,7 +140,7 @@ State parts(const Field& field, const State& start, const Vector& first, Real ti
 /// A step that goes until its columns agree to the tolerance; 0 if they do not, else the number of
 /// columns.
 int extrapolate(const Field& field, State& state, Real time, Real step, Real tolerance) {
-  const Vector first = acceleration(field, state.x, time);
+  const Force first = force(field, state.x, time);
   std::array<State, most_columns> table;
   const Real scale_x = norm(state.x), scale_v = norm(state.v);
   for (int j = 0; j < most_columns; ++j) {
@@ -263,16 +319,19 @@ int fly(int flights, const long double* starts, const long double* centre, int h
 }
 
 /// Of each of `flights` pairs the least separation in a window (its begin and end), and when that
-/// is: there are `looks` a radian of a circle at the place of the lower one, and a change of sign
-/// of the closing speed between two of them is narrowed down by flights.
+/// is; the second ones fly about an Earth of their own, for the air may brake them otherwise: there
+/// are `looks` a radian of a circle at the place of the lower one, and a change of sign of the
+/// closing speed between two of them is narrowed down by flights.
 int least_separations(int flights, const long double* first, const long double* second,
                       const long double* centre, int highest, const long double* zonals,
-                      void* earth, const long double* begin, const long double* window, int looks,
-                      const long double* tolerance, long double* separations, long double* times) {
+                      void* earth, void* of_second, const long double* begin,
+                      const long double* window, int looks, const long double* tolerance,
+                      long double* separations, long double* times) {
   const Field field{centre[0], centre[1], highest, zonals, static_cast<Earth*>(earth)};
+  const Field other{centre[0], centre[1], highest, zonals, static_cast<Earth*>(of_second)};
   for (int f = 0; f < flights; ++f) {
     Pair pair{Flight(field, read(first + 6 * f), *begin, *tolerance),
-              Flight(field, read(second + 6 * f), *begin, *tolerance)};
+              Flight(other, read(second + 6 * f), *begin, *tolerance)};
     Nearest nearest;
     if (!pair.to(window[0])) return 1;
     nearest.add(pair);

@@ -13,12 +13,20 @@ def draw(source):
     scene.frame_of_motion = scene.frame(table)
     distance = source.logarithmic(0.5, 3e4)
     scene.deputy_state = scene.deputy(table, scene.chief, distance, scene.frame_of_motion)
+    scene.deputy_field = scene.field
+    if scene.is_earth and scene.field.air and source.chance(0.5):
+        # Often of a coefficient near the chief's, in which polynomials are expanded.
+        table["spacecraft"], drag = scene.draw_spacecraft()
+        if source.chance(0.6):
+            drag = REAL(float(scene.field.air[2] / scene.density_factor) * source.uniform(0.7, 1.3))
+            table["spacecraft"] = {"drag_m2_kg": float(drag)}
+        scene.deputy_field = scene.field.with_drag(drag * REAL(scene.density_factor))
     return scene
 
 
 def relative(scene, times):
     chief = scene.field.fly(scene.chief, times)
-    deputy = scene.field.fly(scene.deputy_state, times)
+    deputy = scene.deputy_field.fly(scene.deputy_state, times)
     return chief, np.array([orbit.to_frame(c, d - c, *scene.frame_of_motion)
                             for c, d in zip(chief, deputy)])
 
@@ -73,9 +81,11 @@ def judge_states(judgement, scene, told, true, chief, floor, times):
 
 def judge_extremes(judgement, scene, summary, floor):
     least, _ = scene.field.least_separations(scene.chief[None], scene.deputy_state[None], 0,
-                                             scene.duration, looks=40, tolerance=REAL(2) ** -50)
+                                             scene.duration, looks=40, tolerance=REAL(2) ** -50,
+                                             of_second=scene.deputy_field)
     times = coast_times(scene.field, scene.chief, scene.duration, 40)
-    chief, deputy = scene.field.fly(scene.chief, times), scene.field.fly(scene.deputy_state, times)
+    chief = scene.field.fly(scene.chief, times)
+    deputy = scene.deputy_field.fly(scene.deputy_state, times)
     most = np.max(orbit.norm(deputy[:, :3] - chief[:, :3]))
     for name in ("nearest", "farthest"):
         told = summary[name]

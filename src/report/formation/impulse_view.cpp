@@ -28,7 +28,7 @@ const ImpulsePlan* plan_of(const TransferResult& result) {
 }
 
 std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
-  return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, result.flight_floor_m),
+  return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, plan.flight_floor_m),
                      plan.velocity_miss_m_s);
 }
 
@@ -288,6 +288,7 @@ Json optimal_impulses_json(const TransferResult& result) {
        plan->spacing ? Json(std::abs(seconds(result, *plan->spacing))) : Json(nullptr)},
       {"miss_m", json_number(plan->miss_m)},
       {"velocity_miss_m_s", json_number(plan->velocity_miss_m_s)},
+      {"flight_floor_m", json_number(plan->flight_floor_m)},
       {"flights", plan->flights}};
   return json;
 }

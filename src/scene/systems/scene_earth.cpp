@@ -9,6 +9,7 @@
 #include "../../dynamics/fields/spherical_harmonic_field.hpp"
 #include "../../store/sealed_summary.hpp"
 #include "../../store/text_file.hpp"
+#include "../../studies/flown_span.hpp"
 #include "../../text/scene_message.hpp"
 #include "../scene_sections.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
@@ -317,28 +318,10 @@ void refuse_fixed_flows(const TableReader& root, const Scene& scene) {
 
 void set_span_of_earth(const TableReader& root, Scene& scene) {
   if (!scene.system.earth) return;
-  double first = 0, last = 0;
-  const auto reach = [&](double time) {
-    first = std::min(first, time);
-    last = std::max(last, time);
-  };
-  reach(scene.duration);
-  for (const double time : scene.relative_hamiltonian_times) reach(time);
-  if (scene.transfer) reach(scene.transfer->times.back());
-  if (scene.validity) reach(scene.validity->times.back());
-  if (const auto& uncertainty = scene.uncertainty) {
-    if (!uncertainty->times.empty()) reach(uncertainty->times.back());
-    const auto reach_window = [&](const auto& watch) {
-      if (!watch) return;
-      reach(watch->from);
-      reach(watch->to);
-    };
-    reach_window(uncertainty->collision);
-    reach_window(uncertainty->safety);
-  }
+  const FlownSpan span = flown_span(scene);
   EarthSettings& earth = *scene.system.earth;
-  earth.first_s = first * scene.units.time_s;
-  earth.last_s = last * scene.units.time_s;
+  earth.first_s = span.first * scene.units.time_s;
+  earth.last_s = span.last * scene.units.time_s;
   const Date date = read_date(root);
   const Instant epoch{parse_epoch(earth.epoch_tt).value()};
   const auto seconds_to = [&](std::chrono::sys_days day) {
@@ -346,12 +329,12 @@ void set_span_of_earth(const TableReader& root, Scene& scene) {
   };
   const bool is_before = earth.first_s < seconds_to(first_known_day);
   if (is_before || earth.last_s > seconds_to(last_known_day + std::chrono::days(1))) {
-    const double span = is_before ? earth.first_s : earth.last_s;
+    const double beyond = is_before ? earth.first_s : earth.last_s;
     date.table.fail(
         date.key,
         fmt::format("flights that leave the dates at which the Earth's axes and the Sun are known, "
                     "got {} and {:.6g} s from it, {}",
-                    format_epoch(date.epoch), span, right_dates));
+                    format_epoch(date.epoch), beyond, right_dates));
   }
   require_orientation(root, earth);
 }

@@ -11,6 +11,7 @@
 
 #include "../../algebra/scalar_search.hpp"
 #include "../flights/paced_times.hpp"
+#include "../flown_span.hpp"
 #include "hamjet/error.hpp"
 #include "impulses/impulse_search.hpp"
 #include "route.hpp"
@@ -76,10 +77,8 @@ std::vector<Underway> grid_of_starts(const Scene& scene, const Route& route, dou
 }  // namespace
 
 LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
-  const double last = scene.transfer->times.back();
   try {
-    return LinearFlow(problem, last + std::copysign(*scene.transfer->longest_coast, last),
-                      checkpoints_per_revolution);
+    return LinearFlow(problem, last_arrival(*scene.transfer), checkpoints_per_revolution);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::too_large) throw;
     throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));

@@ -115,6 +115,29 @@ TEST(ImpulsePlan, FourImpulsesLieSymmetrically) {
   EXPECT_LT(plan.total_change_m_s(), 0.999 * result.points[0].best().total_change_m_s());
 }
 
+// Every leg is a flight of its own, whose rounding at both ends the flow carries to the end: that
+// of Clohessy and Wiltshire, in axes that rest. Frobenius's norm is the same along any axes.
+TEST(ImpulsePlan, ItsFloorHasEveryLeg) {
+  const double duration = 2.9 * std::numbers::pi;
+  const TransferResult result =
+      study_transfer(metres_from_circle({{0, 1, 0}, {0, 0, 0}}, duration));
+  expect_flown(result);
+  const ImpulsePlan& plan = *result.optimal->plan;
+  ASSERT_EQ(plan.impulses.size(), 4U);
+  Eigen::Matrix<double, 6, 6> to_rest = Eigen::Matrix<double, 6, 6>::Identity();
+  to_rest(3, 1) = -1;
+  to_rest(4, 0) = 1;
+  const auto growth = [&](double from) {
+    return (to_rest * clohessy_wiltshire(duration - from) * to_rest.inverse()).norm();
+  };
+  const double ulps =
+      1 + growth(0) + 2 * growth(plan.impulses[1].time) + 2 * growth(plan.impulses[2].time);
+  const double ulp_m = std::ldexp(7e6, -52);
+  // A deputy a metre away has the chief's flow.
+  EXPECT_NEAR(plan.flight_floor_m, ulps * ulp_m, 1e-6 * ulps * ulp_m);
+  EXPECT_NEAR(result.flight_floor_m, (1 + growth(0)) * ulp_m, 1e-6 * ulps * ulp_m);
+}
+
 // Half of the plan's cost is one radial impulse, and the way is half an ellipse of 2 by 1 along the
 // orbit, a quarter of the distance above or below the chief's orbit at its middle (Fehse, the
 // same).

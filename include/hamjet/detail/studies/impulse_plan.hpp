@@ -60,6 +60,9 @@ struct ImpulsePlan {
   /// Distance between the wanted end and the place that the deputy reaches with this plan.
   double miss_m = 0;
   double velocity_miss_m_s = 0;
+  /// Rounding floor of the flown end in metres: the rounding at both ends of each leg, grown with
+  /// the linear flow to the end. A miss below this means nothing.
+  double flight_floor_m = 0;
   std::string failure;    ///< if not empty, the reason why the plan does not reach its end
   std::string forbidden;  ///< if not empty, the reason why the scene's limits forbid the plan
 

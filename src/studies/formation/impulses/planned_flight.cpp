@@ -8,6 +8,7 @@
 #include "../../../algebra/state_sums.hpp"
 #include "../../exact_flow.hpp"
 #include "../keep_out.hpp"
+#include "../two_point_flight.hpp"
 #include "hamjet/error.hpp"
 #include "planned_transfer.hpp"
 
@@ -135,6 +136,22 @@ void PlannedTransfer::add_trims(TimedImpulses& impulses, std::vector<double>& we
     changes.insert(changes.begin() + at, Eigen::Vector3d::Zero());
     weights.insert(weights.begin() + at, weight);
   }
+}
+
+/// The flight of a leg ends with a rounded state, and the next one begins with one to which an
+/// impulse was added: each of them is wrong by an ulp of its distance from the centre, as in
+/// rounding_of_flights, which the linear flow about the chief carries to the end.
+double PlannedTransfer::flight_floor_m(const TimedImpulses& impulses) const {
+  const Eigen::Matrix<double, 6, 6> whole = flow_.at(duration_);
+  const auto carried = [&](double time) {
+    const Eigen::Matrix<double, 6, 6> rest = whole * symplectic_inverse(flow_.at(time));
+    return rest.norm() * position_of(flow_.nominal(time)).norm();
+  };
+  double sum = carried(0) + position_of(chief_end_).norm();
+  for (const double time : impulses.times) {
+    if (time != 0 && time != duration_) sum += 2 * carried(time);
+  }
+  return std::numeric_limits<double>::epsilon() * sum * units_.length_m;
 }
 
 /// The reason why the scene's limits forbid the flown impulses; empty if they do not.

@@ -235,6 +235,7 @@ ImpulsePlan PlannedTransfer::plan(const FlownImpulses& given) const {
   plan.failure = flown.failure;
   plan.miss_m = flown.miss_m;
   plan.velocity_miss_m_s = flown.velocity_miss_m_s;
+  plan.flight_floor_m = flight_floor_m(flown.impulses);
   for (std::size_t k = 0; k < flown.impulses.times.size(); ++k) {
     const double time = flown.impulses.times[k];
     const Eigen::Vector3d canonical = flown.impulses.changes[k] * momentum_unit_;

@@ -92,6 +92,7 @@ class PlannedTransfer {
                        const Vector6& mend) const;
   void add_trims(TimedImpulses& impulses, std::vector<double>& weights, bool is_spaced) const;
   std::string forbidden_by_limits(const TimedImpulses& impulses) const;
+  double flight_floor_m(const TimedImpulses& impulses) const;
 
   const Scene& scene_;
   const ComputedProblem& problem_;
