@@ -292,6 +292,17 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
         warning_head, table.head(""), length_text(separation_m), length_text(distance_m / 20)));
   };
   if (scene.deputy && !has_collision(root)) look(root.table("deputy"), scene.deputy->start);
+  if (scene.deputy && has_collision(root) && scene.system.earth && scene.system.earth->radiation &&
+      scene.system.earth->radiation->shadow != ShadowModel::none) {
+    const double separation_m = scene.deputy->start.position_m.stableNorm();
+    if (separation_m >= distance_m / 20) {
+      warnings.push_back(fmt::format(
+          "{}{}: lit as its chief is, got a deputy {} away, should be well below {}, or shadow = "
+          "\"none\": the edges of the shadow are those of the chief's orbit",
+          warning_head, root.table("deputy").head(""), length_text(separation_m),
+          length_text(distance_m / 20)));
+    }
+  }
   if (!scene.transfer) return warnings;
   const TableReader transfer = root.table("transfer");
   if (transfer.has("start")) look(transfer.table("start"), scene.transfer->start);

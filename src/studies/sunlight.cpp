@@ -134,7 +134,7 @@ class LitFlight {
   std::vector<LitArc> fly(TaylorFlow& flow) {
     // A step shorter than this fraction of the whole time runs into a collision.
     constexpr double least_part = 1e-9;
-    constexpr long most_arcs = 1000000;
+    constexpr long most_arcs = 200000;
     std::vector<LitArc> arcs;
     crossing_.reset();
     double time = time_;

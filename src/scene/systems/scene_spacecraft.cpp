@@ -161,7 +161,7 @@ void read_air(const TableReader& system, EarthSettings& earth) {
 }
 
 void read_light(const TableReader& system, EarthSettings& earth) {
-  if (!system.boolean_if_any("radiation").value_or(false)) {
+  if (!system.has("radiation") || !system.boolean("radiation")) {
     refuse_alone(system, {"shadow"}, "light", "radiation = true");
     return;
   }

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "astronomy/sunlight.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
+#include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "studies/checks/force_sizes.hpp"
@@ -17,6 +19,7 @@
 #include "studies/earth_system.hpp"
 #include "studies/exact_flow.hpp"
 #include "studies/formation/deputy_motion.hpp"
+#include "studies/formation/single_transfer.hpp"
 #include "support/errors.hpp"
 #include "support/flow.hpp"
 
@@ -86,8 +89,8 @@ double seen(const Place& r, const Place& sun) {
   return sum / rings;
 }
 
-/// Chief and deputy by Runge and Kutta's method in steps of a second. The light is that which the
-/// chief sees, or each spacecraft; `shines` without shadow.
+/// Chief and deputy by Runge and Kutta's method in steps of two seconds. The light is that which
+/// the chief sees, or each spacecraft.
 class OwnFlight {
  public:
   enum class Light { of_chief, of_each, without_shadow, none };
@@ -187,7 +190,6 @@ TEST(RadiationStudies, OrbitThroughShadowsIsThatOfAnotherIntegrator) {
 TEST(RadiationStudies, DeputiesOfOtherAreaAreOnTheChiefsJet) {
   const Scene scene = scene_of({.deputy = 0.03, .position_m = "300, -700, 200"});
   const DeputyMotion motion = study_deputy_motion(scene);
-  const Scene both = motion.scene;
   std::vector<double> deputy = scene.nominal;
   const std::vector<double> deviation =
       ChiefFrame(scene.nominal, metric_units(scene), scene.deputy->frame)
@@ -231,7 +233,7 @@ TEST(RadiationStudies, ChecksSayWhatLightAndItsEdgesDo) {
                       scene.units.length_km;
   const double told = named("deputy's own edges").relative_m.value();
   EXPECT_GE(told, 0.95 * left);
-  EXPECT_LT(told, 20 * left);
+  EXPECT_LT(told, 100 * left);
   EXPECT_GT(left, 1e-4);
 }
 
