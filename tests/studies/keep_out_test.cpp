@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include "hamjet/scene/scene_reader.hpp"
+#include "hamjet/studies/transfer.hpp"
+
+namespace hamjet {
+namespace {
+
+// After a whole period F1 is singular, and the polynomials ask for a velocity with which no way can
+// be followed. The other answer stays one, half a period before.
+TEST(KeepOut, AWayThatCannotBeFollowedIsForbidden) {
+  const TransferResult result = study_transfer(io::parse_scene(R"(
+[system]
+model = "kepler"
+mu_km3_s2 = 398600.4415
+[nominal]
+a_km = 18496.2644
+e = 0.0731228373
+i_deg = 5.55844534
+raan_deg = 83.7430808
+argp_deg = -64.4802428
+ta_deg = -34.9851764
+[jet]
+order = 4
+duration_s = -25034.39025448461
+[transfer]
+count = 2
+keep_out_m = [4.453460535475438, 29.28989497995526, 4.548430488100978]
+start = { a_da_m = 0.0, a_dlambda_m = 39.70366839268276, a_dex_m = 157.841553, a_dey_m = -8.7480018, a_dix_m = -33.899978, a_diy_m = 42.8503084 }
+end = { a_da_m = 0.0, a_dlambda_m = 36.3252393, a_dex_m = 161.162466, a_dey_m = -12.2903207, a_dix_m = -76.8284151, a_diy_m = 28.948831 }
+)",
+                                                               "whole-period.toml"));
+  ASSERT_EQ(result.points.size(), 2U);
+  EXPECT_TRUE(result.points[1].is_near_singular);
+  ASSERT_TRUE(result.points[1].keep_out_ratio);
+  EXPECT_EQ(*result.points[1].keep_out_ratio, 0);
+  EXPECT_FALSE(result.points[1].is_candidate());
+  EXPECT_GT(result.points[0].keep_out_ratio.value(), 0);
+}
+
+}  // namespace
+}  // namespace hamjet
