@@ -173,7 +173,9 @@ def judge_point(judgement, scene, flights, point, floor):
                           f"{'too large' if point['exceeds'] else 'allowed'}",
                           point["exceeds"] == (largest > limit) or abs(largest / limit - 1) < 1e-9)
     axes = scene.tables["transfer"].get("keep_out_m")
-    if axes and point["ratio"] is not None:
+    if axes and point["ratio"] == 0:
+        judgement.require(f"{what}: told that its way cannot be followed", point["near"])
+    elif axes and point["ratio"] is not None:
         ratio = least_ratio(scene, start, time, axes)
         # The told one may be of a way that misses by what it says.
         judgement.within(f"{what}: keep-out ratio", point["ratio"], ratio,

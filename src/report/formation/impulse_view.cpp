@@ -27,7 +27,7 @@ const ImpulsePlan* plan_of(const TransferResult& result) {
   return result.optimal && result.optimal->plan ? &*result.optimal->plan : nullptr;
 }
 
-std::string end_text(const TransferResult& result, const ImpulsePlan& plan) {
+std::string end_text(const ImpulsePlan& plan) {
   return fmt::format("{} and {:.2g} m/s", miss_text(plan.miss_m, plan.flight_floor_m),
                      plan.velocity_miss_m_s);
 }
@@ -139,7 +139,7 @@ std::string optimal_impulses_verdict(const TransferResult& result) {
   std::string text = fmt::format(
       "With {} in {} the same takes {}, flown with a miss of {}{}{}; ",
       counted(plan.impulses.size(), "impulse"), time_text(seconds(result, plan.duration)),
-      velocity_text(plan.total_change_m_s()), end_text(result, plan),
+      velocity_text(plan.total_change_m_s()), end_text(plan),
       linear == nullptr ? ""
                         : fmt::format(" ({} in the linear theory about the chief)",
                                       velocity_text(*linear->change_m_s)),
@@ -165,7 +165,7 @@ std::string impulse_lines(const TransferResult& result) {
   text += fmt::format("  optimal          {} by {} in {}: misses by {}\n",
                       velocity_text(plan->total_change_m_s()),
                       counted(plan->impulses.size(), "impulse"),
-                      time_text(seconds(result, plan->duration)), end_text(result, *plan));
+                      time_text(seconds(result, plan->duration)), end_text(*plan));
   return text + impulse_rows(result, plan->impulses);
 }
 

@@ -285,9 +285,15 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
     point.is_below_surface = *point.lowest < *surface;
   }
   // A trajectory through the centre need not be examined further.
-  if (settings_.keep_out_m && point.lowest != 0.0) {
+  if (!settings_.keep_out_m || point.lowest == 0.0) return;
+  try {
     point.keep_out_ratio =
         keep_out_ratio(scene_, problem_.nominal, deviation, problem_.start_time, point.time);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    // Next to a singular time polynomials ask for velocities with which no way can be followed;
+    // such a way may lead anywhere, and is forbidden.
+    point.keep_out_ratio = 0;
   }
 }
 
