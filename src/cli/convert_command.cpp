@@ -55,6 +55,10 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
             option,
             [&target, option](const std::string& text) { target = numbers_of(option, text); });
         added->type_name("NUMBERS");
+      } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+        added = command.add_option_function<std::vector<std::string>>(
+            option, [&target](const std::vector<std::string>& names) { target = names; });
+        added->delimiter(',')->type_name("NAMES");
       } else {
         added = command.add_option(option, target);
         added->type_name(std::is_same_v<Value, double> ? "NUMBER" : "NAME");

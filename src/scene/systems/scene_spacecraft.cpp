@@ -125,17 +125,13 @@ void read_drag(const TableReader& root, SystemSettings& settings) {
   const std::vector<std::string> variables = jet.texts("variables");
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const EarthParameter& parameter : earth_parameters()) {
-      if (parameter.name != variables[i]) continue;
-      if (!earth.atmosphere) {
+      const auto& known = earth.parameters;
+      const bool is_known = std::find(known.begin(), known.end(), parameter.name) != known.end();
+      if (parameter.name != variables[i] || is_known) continue;
+      if (const auto force = parameter.missing ? parameter.missing(settings) : std::nullopt) {
         jet.fail_element("variables", i,
-                         fmt::format("of no effect without air, got \"{}\", must be left out, or "
-                                     "beside system.atmosphere",
-                                     parameter.name));
-      }
-      if (!earth.parameters.empty()) {
-        jet.fail_element("variables", i,
-                         fmt::format("a second parameter, got {} after {}, must be one at most",
-                                     parameter.name, earth.parameters[0]));
+                         fmt::format("{}, got \"{}\", must be left out, or {}", force->what,
+                                     parameter.name, force->right));
       }
       add_parameter(settings, parameter.name);
     }

@@ -57,19 +57,22 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
 }
 
 Scene with_deputy_parameters(Scene scene) {
-  if (!differs(scene)) return scene;
-  const EarthSettings& earth = *scene.system.earth;
-  const auto place = std::find(earth.parameters.begin(), earth.parameters.end(), drag_parameter);
-  if (place != earth.parameters.end()) return scene;
-  if (!earth.parameters.empty()) {
-    throw Error(ErrorKind::scene,
-                fmt::format("deputy.spacecraft: differs from the chief's, got jet.variables with "
-                            "{}, must be without it: jets have one parameter",
-                            earth.parameters[0]));
+  if (!scene.system.earth) return scene;
+  EarthSettings& earth = *scene.system.earth;
+  std::vector<std::string> wanted;
+  if (differs(scene)) wanted.emplace_back(drag_parameter);
+  if (earth.parameters == wanted) return scene;
+  // Deputies have the chief's values of the other parameters, in which nothing need be expanded.
+  constexpr std::size_t n = 6;
+  earth.parameters.clear();
+  scene.system.own_names.clear();
+  std::erase_if(scene.variables, [](std::size_t v) { return v >= n; });
+  scene.nominal.resize(n);
+  for (const std::string& name : wanted) add_parameter(scene.system, name);
+  for (const double value : parameter_values(scene.system)) {
+    scene.variables.push_back(scene.nominal.size());
+    scene.nominal.push_back(value);
   }
-  add_parameter(scene.system, drag_parameter);
-  scene.variables.push_back(scene.nominal.size());
-  scene.nominal.push_back(earth.drag_m2_kg);
   scene.coordinates = {};
   return scene;
 }
