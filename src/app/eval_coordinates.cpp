@@ -117,15 +117,18 @@ EvalCoordinates::EvalCoordinates(const io::StoredJet& stored, const EvalFrames& 
   const MetricUnits units{stored.units.length_km * 1000, stored.units.time_s};
   text_ = text_of(initial);
   if (final != initial) text_ += ", results " + text_of(final);
-  // In canonical units of an orbit mu is 1.
-  initial_.emplace(stored.nominal_initial, units, 1, initial);
-  final_.emplace(stored.nominal_final, units, 1, final);
+  // In canonical units of an orbit mu is 1. Parameters behind the six numbers are the chief's.
+  const std::span<const double> start(stored.nominal_initial), end(stored.nominal_final);
+  initial_.emplace(start.first(6), units, 1, initial);
+  final_.emplace(end.first(6), units, 1, final);
   const auto& chief = stored.nominal_final;
   chief_distance_ = std::hypot(chief[0], chief[1], chief[2]);
 }
 
 double EvalCoordinates::told_factor(std::size_t component) const {
-  return component < stored_.nominal_initial.size() / 2 ? told_.length : told_.momentum;
+  const std::size_t n = stored_.degrees_of_freedom();
+  if (component >= 2 * n) return 1;  // parameters have their own units
+  return component < n ? told_.length : told_.momentum;
 }
 
 std::vector<double> EvalCoordinates::initial_row(std::span<const double> canonical) const {
@@ -154,9 +157,13 @@ std::vector<double> EvalCoordinates::variables(std::span<const double> deviation
       throw Error(ErrorKind::usage, error.what());
     }
   }();
-  std::vector<double> result(stored_.variables.size());
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = canonical[stored_.variables[i]];
-  if (result.size() == canonical.size()) return result;
+  std::vector<double> result(stored_.variables.size(), 0);
+  std::size_t of_phase_space = 0;
+  for (std::size_t i = 0; i < result.size() && stored_.variables[i] < canonical.size(); ++i) {
+    result[i] = canonical[stored_.variables[i]];
+    ++of_phase_space;
+  }
+  if (of_phase_space == canonical.size()) return result;
   // What the rotation of the axes leaves of a component that ought to vanish is round-off.
   constexpr double round_off = 8 * std::numeric_limits<double>::epsilon();
   double size = 0;
@@ -195,7 +202,9 @@ std::vector<double> EvalCoordinates::final_state(std::span<const double> compone
     return numbers;
   }
   std::array<double, 6> full{};  // of an orbit
-  for (std::size_t c = 0; c < components.size(); ++c) full[stored_.components[c]] = components[c];
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    if (stored_.components[c] < full.size()) full[stored_.components[c]] = components[c];
+  }
   try {
     const auto numbers = final_->coordinates(full);
     return {numbers.begin(), numbers.end()};

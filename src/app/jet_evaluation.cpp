@@ -19,7 +19,7 @@ JetEvaluation::JetEvaluation(const io::StoredJet& stored, const std::vector<Seri
       error_(io::evaluation_error(stored, map, degree), degree),
       positions_(static_cast<std::size_t>(std::lower_bound(stored.components.begin(),
                                                            stored.components.end(),
-                                                           stored.nominal_initial.size() / 2) -
+                                                           stored.degrees_of_freedom()) -
                                           stored.components.begin())),
       momentum_unit_(std::ldexp(1.0, stored.momentum_exponent())),
       length_m_(stored.units.length_km * 1000),

@@ -17,10 +17,15 @@ bool are_same(const CanonicalUnits& a, const CanonicalUnits& b) {
 }
 
 /// Whether positions and momenta are the same but for the roundings of two units.
-bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b) {
+bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b,
+                     std::size_t degrees_of_freedom) {
   if (a.size() != b.size()) return false;
   constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
-  const std::size_t n = a.size() / 2;
+  const std::size_t n = degrees_of_freedom;
+  if (!std::equal(a.begin() + static_cast<std::ptrdiff_t>(2 * n), a.end(),
+                  b.begin() + static_cast<std::ptrdiff_t>(2 * n))) {
+    return false;
+  }
   for (const std::size_t first : {std::size_t{0}, n}) {
     double size = 0;
     double apart = 0;
@@ -50,7 +55,8 @@ bool is_about_chief(const io::StoredJet& stored, const Scene& scene) {
   }
   if (!starts_as(stored, scene)) return false;
   if (are_same(stored.units, scene.units)) return stored.nominal_initial == scene.nominal;
-  return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial);
+  return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial,
+                         stored.degrees_of_freedom());
 }
 
 double duration_in_units_of(const Scene& scene, const io::StoredJet& stored) {
@@ -60,10 +66,11 @@ double duration_in_units_of(const Scene& scene, const io::StoredJet& stored) {
 FlowJet<double> jet_in_units_of(const Scene& scene, const io::StoredJet& stored) {
   const Extended length = Extended(stored.units.length_km) / scene.units.length_km;
   const Extended momentum = length * scene.units.time_s / stored.units.time_s;
-  const std::size_t n = stored.nominal_initial.size() / 2;
+  const std::size_t n = stored.degrees_of_freedom();
   const auto factors = [&](const std::vector<std::size_t>& places) {
     std::vector<Extended> result;
-    for (const std::size_t place : places) result.push_back(place < n ? length : momentum);
+    for (const std::size_t place : places)
+      result.push_back(place < n ? length : place < 2 * n ? momentum : Extended(1));
     return result;
   };
   FlowJet<Extended> jet = stored.jet;

@@ -55,6 +55,14 @@ void add_description_options(CLI::App& command, io::JetDescription& foreign) {
             option,
             [&target, option](const std::string& text) { target = numbers_of(option, text); });
         added->type_name("NUMBERS");
+      } else if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+        added =
+            command.add_option_function<std::string>(option, [&target](const std::string& text) {
+              std::vector<std::string_view> names;
+              io::split_line(text, names);
+              target.emplace(names.begin(), names.end());
+            });
+        added->type_name("NAMES");
       } else {
         added = command.add_option(option, target);
         added->type_name(std::is_same_v<Value, double> ? "NUMBER" : "NAME");

@@ -26,6 +26,9 @@ DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
         body.potential != nullptr && body.position != nullptr && body.position->components() == 3,
         "a disturbing body needs a potential and the three components of its position");
   }
+  for (const FieldVariation& variation : gravity.variations) {
+    require(variation.potential != nullptr, "a variation of the field needs its potential");
+  }
   if (const auto& radiation = gravity.radiation) {
     require(radiation->potential != nullptr && radiation->sun != nullptr,
             "the radiation of the Sun needs its potential and its position");
@@ -40,6 +43,12 @@ DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity) {
       return {fixed[0] - place[0], fixed[1] - place[1], fixed[2] - place[2]};
     };
     Expression potential = field_value(gravity.potential, fixed);
+    for (const FieldVariation& variation : gravity.variations) {
+      const Expression change =
+          variation.coefficient.in(z, 3) - Expression(variation.coefficient.value);
+      potential += change * field_value(variation.potential, fixed);
+    }
+    potential *= gravity.scale.in(z, 3) * Expression(gravity.unit_of_scale);
     Expression others(0);
     for (const DisturbingBody& body : gravity.others) {
       const std::vector<Expression> s = time_values(body.position, t);

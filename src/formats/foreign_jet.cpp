@@ -26,7 +26,7 @@ void require_all(const std::string& name, const JetDescription& given) {
   std::vector<std::string> keys;
   std::vector<std::string> options;
   for (const DescriptionMember& member : description_members()) {
-    if (is_given(member, given)) continue;
+    if (!member.is_needed || is_given(member, given)) continue;
     keys.emplace_back(member.key);
     options.push_back(member.option());
   }
@@ -54,13 +54,12 @@ double positive(std::string_view key, double number) {
   return number;
 }
 
-void check_state(const std::vector<double>& state, SystemModel model) {
-  std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
-  for (std::size_t& size : sizes) size *= 2;
+void check_state(const std::vector<double>& state, SystemModel model, std::size_t parameters) {
+  const std::vector<std::size_t> sizes = possible_dimensions(model, parameters);
   if (std::find(sizes.begin(), sizes.end(), state.size()) == sizes.end()) {
-    refuse("nominal_initial",
-           fmt::format("got {} numbers, must be {} of the model {}", state.size(),
-                       fmt::join(sizes, " or "), model_name(model)));
+    refuse("nominal_initial", fmt::format("got {} numbers, must be {} of the model {}{}",
+                                          state.size(), fmt::join(sizes, " or "), model_name(model),
+                                          parameters == 0 ? "" : " with these parameters"));
   }
   for (const double number : state) finite("nominal_initial", number);
 }
@@ -83,7 +82,10 @@ const std::vector<DescriptionMember>& description_members() {
       {"duration_canonical", "of the flow, in that unit", &JetDescription::duration_canonical},
       {"nominal_initial",
        "the state about which the polynomials expand, all its numbers in those units",
-       &JetDescription::nominal_initial}};
+       &JetDescription::nominal_initial},
+      {"state_parameters",
+       "names of the parameters with which nominal_initial ends, of a system that has some",
+       &JetDescription::state_parameters, false}};
   return members;
 }
 
@@ -104,7 +106,12 @@ StoredJet foreign_jet(const std::string& name, const std::string& scene, std::st
                   positive("time_unit_s", *given.time_unit_s)};
   stored.duration = finite("duration_canonical", *given.duration_canonical);
   stored.nominal_initial = *given.nominal_initial;
-  check_state(stored.nominal_initial, stored.model);
+  const std::vector<std::string> parameters =
+      given.state_parameters.value_or(std::vector<std::string>());
+  check_state(stored.nominal_initial, stored.model, parameters.size());
+  if (const auto problem = set_state_parameters(stored, parameters)) {
+    refuse("state_parameters", *problem);
+  }
   const std::size_t size = stored.nominal_initial.size();
   for (std::size_t i = 0; i < size; ++i) stored.components.push_back(i);
   stored.variables = stored.components;

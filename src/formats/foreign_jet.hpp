@@ -10,15 +10,17 @@
 
 namespace hamjet::io {
 
-/// One member of the description that must be given for a jet from another program, as an option of
-/// the command and an argument in Python.
+/// One member of the description that is given for a jet from another program, as an option of the
+/// command and an argument in Python.
 struct DescriptionMember {
   std::string_view key;
   std::string_view help;
   std::variant<std::optional<std::string> JetDescription::*,
                std::optional<double> JetDescription::*,
-               std::optional<std::vector<double>> JetDescription::*>
+               std::optional<std::vector<double>> JetDescription::*,
+               std::optional<std::vector<std::string>> JetDescription::*>
       value;
+  bool is_needed = true;
 
   /// The option of the command: two dashes, then the key with dashes for underscores.
   std::string option() const;

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "../text/quantity_text.hpp"
+#include "../text/scene_message.hpp"
+#include "hamjet/dynamics/expression_text.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/version.hpp"
@@ -16,6 +21,7 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.label = run.settings.label;
   description.model = scene.system.model;
   description.own_names = scene.system.own_names;
+  description.parameters = result.problem.system->parameters;
   description.precision = scene.precision;
   description.units = scene.units;
   description.duration = scene.duration;
@@ -29,6 +35,29 @@ StoredJet describe_jet(const PropagationResult& result, const RunResult& run) {
   description.error_by_degree =
       run.error_by_degree.value_or(run.error_estimate.by_degree.value_or(std::vector<double>()));
   return description;
+}
+
+std::optional<std::string> set_state_parameters(StoredJet& stored,
+                                                const std::vector<std::string>& names) {
+  if (names.empty()) return std::nullopt;
+  if (!has_state_parameters(stored.model) || names.size() > most_state_parameters) {
+    return fmt::format("got {} of the model {}, must be at most {} of the model earth or own",
+                       counted(names.size(), "name"), model_name(stored.model),
+                       most_state_parameters);
+  }
+  const std::size_t n = (stored.nominal_initial.size() - names.size()) / 2;
+  const std::vector<std::string_view> usual = hamjet::variable_names(stored.model, n);
+  std::vector<std::string> all(usual.begin(), usual.end());
+  for (const std::string& name : names) {
+    if (!is_expression_name(name) || std::find(all.begin(), all.end(), name) != all.end()) {
+      return fmt::format("got {}, must be names of letters, digits and _, each once, other than {}",
+                         in_quotes(name), fmt::join(usual, ", "));
+    }
+    all.push_back(name);
+  }
+  stored.own_names = std::move(all);
+  stored.parameters = names.size();
+  return std::nullopt;
 }
 
 std::string frame_of(SystemModel model) {

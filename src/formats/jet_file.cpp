@@ -37,7 +37,9 @@ bool has_summary(const std::filesystem::path& directory) {
 std::string how_to_describe(const OutputFormat& format) {
   if (format.read_polynomials == nullptr) return "";
   std::vector<std::string> options;
-  for (const DescriptionMember& member : description_members()) options.push_back(member.option());
+  for (const DescriptionMember& member : description_members()) {
+    if (member.is_needed) options.push_back(member.option());
+  }
   return fmt::format(", or convert it with {}", fmt::join(options, ", "));
 }
 

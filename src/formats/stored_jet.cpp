@@ -41,13 +41,16 @@ std::vector<double> state(const JsonReader& value, const std::vector<std::size_t
   return numbers;
 }
 
-/// The possible sizes of a state of this model.
-std::vector<std::size_t> dimensions(SystemModel model) {
-  std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
-  for (std::size_t& size : sizes) size *= 2;
-  // A state about the real Earth may end with a parameter.
-  if (model == SystemModel::earth) sizes.push_back(sizes.back() + 1);
-  return sizes;
+/// The number of parameters with which the states of a summary end.
+std::size_t parameters_of(const JsonReader& root, SystemModel model) {
+  if (!root.has("state_parameters")) return 0;
+  const JsonReader json = root.at("state_parameters");
+  const auto count = json.integer<std::size_t>();
+  if (count > most_state_parameters || (count > 0 && !has_state_parameters(model))) {
+    json.fail(
+        fmt::format("must be 0 to {}, of a model that has parameters", most_state_parameters));
+  }
+  return count;
 }
 
 /// Indices of variables, which must ascend as the writer has them.
@@ -138,8 +141,7 @@ struct DescribedRun {
 
 std::vector<std::string> state_names(const JsonReader& json, const StoredJet& stored) {
   auto names = json.list([](const JsonReader& name) { return name.text(); });
-  const bool has_own = stored.model == SystemModel::own || stored.model == SystemModel::earth;
-  if (!has_own || names.size() != stored.nominal_initial.size()) {
+  if (!has_state_parameters(stored.model) || names.size() != stored.nominal_initial.size()) {
     json.fail(fmt::format("must have {} names, of a model that has its own",
                           stored.nominal_initial.size()));
   }
@@ -160,7 +162,9 @@ DescribedRun read_description(const JsonReader& root, const std::optional<std::s
     stored.start_time = ClockTime(finite_number(root.at("start_canonical")));
   }
   if (root.has("autonomous")) stored.is_autonomous = root.at("autonomous").boolean();
-  stored.nominal_initial = state(root.at("nominal_initial"), dimensions(stored.model));
+  stored.parameters = parameters_of(root, stored.model);
+  stored.nominal_initial =
+      state(root.at("nominal_initial"), possible_dimensions(stored.model, stored.parameters));
   if (root.has("state_names")) stored.own_names = state_names(root.at("state_names"), stored);
   const auto names = stored.variable_names();
   stored.components = indices(root.at("components"), names);
@@ -385,12 +389,12 @@ std::vector<StoredJet> read_stored_jets(const std::filesystem::path& directory,
 
 std::vector<Series<double>> evaluation_error(const StoredJet& stored,
                                              const std::vector<Series<double>>& map, int degree) {
-  const auto kinds =
-      kinds_of_variables(stored.variables, stored.nominal_initial.size(), map.size());
+  const std::size_t n = (map.size() - stored.parameters) / 2;
+  const auto kinds = kinds_of_variables(stored.variables, stored.degrees_of_freedom(), n);
   const int exponent = stored.momentum_exponent();
-  const std::vector<Series<double>> comparable = in_momentum_unit(map, kinds, exponent);
+  const std::vector<Series<double>> comparable = in_momentum_unit(map, kinds, n, exponent);
   return in_momentum_unit(hamjet::evaluation_error(comparable, degree, stored.error_by_degree),
-                          kinds, -exponent);
+                          kinds, n, -exponent);
 }
 
 }  // namespace hamjet::io

@@ -36,7 +36,8 @@ std::vector<Direction<Real>> known_directions(const FlowProblem<Real>& problem,
     std::vector<Real> entries = one.direction;
     double logarithms = 0;
     for (std::size_t v = 0; v < entries.size(); ++v) {
-      if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, -exponent));
+      if (problem.variables[v] >= n && problem.variables[v] < 2 * n)
+        entries[v] *= Real(std::ldexp(1.0, -exponent));
       logarithms += std::log(std::abs(static_cast<double>(entries[v])));
     }
     const double length = std::exp(logarithms / static_cast<double>(entries.size()));
@@ -78,7 +79,8 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   if (problem.duration == 0) return result;
   const int exponent = settings.momentum_exponent;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const FlowJet<Real> jet = in_momentum_unit(delivered, problem.variables, exponent);
+  const FlowJet<Real> jet =
+      in_momentum_unit(delivered, problem.variables, problem.system->degrees_of_freedom, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
   const Directions<Real> drawn = choose_directions(jet, line, largest, directions_of_runs[0]);
   // Steps that were chosen along the known lines are also judged along other lines.
@@ -88,7 +90,8 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   if (!taken.empty()) {
     std::vector<double> shown(degrees, 0);
     for (std::size_t k = 0; k < taken.size(); ++k) {
-      const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line, exponent);
+      const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line,
+                                                 problem.system->degrees_of_freedom, exponent);
       include_known(shown, taken[k], run, largest);
       include_nominals(shown, first[0], run, largest[0]);
     }
@@ -122,7 +125,8 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
   std::vector<std::vector<double>> largest;
   for (const FlowJet<Real>& jet : delivered) {
     require_jet_of(problem, jet);
-    jets.push_back(in_momentum_unit(jet, problem.variables, exponent));
+    jets.push_back(
+        in_momentum_unit(jet, problem.variables, problem.system->degrees_of_freedom, exponent));
     largest.push_back(largest_by_degree(jets.back()));
   }
   std::vector<FlowJet<Real>> first(
@@ -135,7 +139,8 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
                                     settings_of_run<Real>(number, settings), 256e6,
                                     observer_of_run<Real>(problem.duration, number, settings));
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const auto lines = lines_of_run<Real>(along.at(times[i]), settings);
+      const auto lines =
+          lines_of_run<Real>(along.at(times[i]), problem.system->degrees_of_freedom, settings);
       Directions<Real> at_time;
       for (const Direction<Real>& direction : directions) {
         at_time.push_back({direction.entries, restrict_to_line(jets[i], direction.entries, line)});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -11,10 +12,11 @@
 namespace hamjet {
 
 /// The distance of an orbit's start from the centre, which is the length with which deviations are
-/// compared; it is 1 in the default unit of length.
+/// compared; it is 1 in the default unit of length. A state of an orbit may end with parameters.
 inline double initial_distance(std::span<const double> start) {
   double distance = 0;
-  for (std::size_t i = 0; i < start.size() / 2; ++i) distance = std::hypot(distance, start[i]);
+  const std::size_t positions = std::min<std::size_t>(3, start.size() / 2);
+  for (std::size_t i = 0; i < positions; ++i) distance = std::hypot(distance, start[i]);
   return distance;
 }
 
@@ -29,33 +31,36 @@ inline int natural_momentum_exponent(bool is_orbit, std::span<const double> star
 }
 
 /// The argument `variables` of in_momentum_unit for a jet without some degrees of freedom of its
-/// model: for each variable, the index of one of the jet's components of the same kind, position or
-/// momentum. The model's state has `dimension` numbers.
+/// model: for each variable, the index of one of the jet's components of the same kind, position,
+/// momentum or parameter. The model has `of_model` degrees of freedom, the jet `of_jet`.
 inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> variables,
-                                                   std::size_t dimension, std::size_t components) {
+                                                   std::size_t of_model, std::size_t of_jet) {
   std::vector<std::size_t> result;
-  for (const std::size_t v : variables) result.push_back(v < dimension / 2 ? 0 : components / 2);
+  for (const std::size_t v : variables)
+    result.push_back(std::min<std::size_t>(v / of_model, 2) * of_jet);
   return result;
 }
 
 /// A jet with its momenta, both components and variables, in units of 2^exponent, so that nothing
 /// is rounded. Coefficients of one degree are compared with each other, but those of positions and
 /// momenta have different units: without a common unit, the largest one would depend on the unit of
-/// length. `variables` has the index in z = (q, p) of each variable. A negative exponent undoes a
+/// length. `variables` has the index in z = (q, p, c) of each variable, where q are the first
+/// `degrees_of_freedom` numbers; parameters c keep their units. A negative exponent undoes a
 /// positive one.
 template <class Real>
 FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> variables,
-                               int exponent) {
+                               std::size_t degrees_of_freedom, int exponent) {
   if (exponent == 0) return jet;
-  const std::size_t n = jet.size() / 2;
+  const std::size_t n = degrees_of_freedom;
+  const auto is_momentum = [n](std::size_t index) { return index >= n && index < 2 * n; };
   const SeriesSpace& space = jet[0].space();
   for (std::size_t k = 0; k < space.size(); ++k) {
     int momenta = 0;
     for (std::size_t v = 0; v < variables.size(); ++v) {
-      if (variables[v] >= n) momenta += space.exponents(k)[v];
+      if (is_momentum(variables[v])) momenta += space.exponents(k)[v];
     }
     for (std::size_t c = 0; c < jet.size(); ++c) {
-      jet[c][k] *= Real(std::ldexp(1.0, exponent * (momenta - (c < n ? 0 : 1))));
+      jet[c][k] *= Real(std::ldexp(1.0, exponent * (momenta - (is_momentum(c) ? 1 : 0))));
     }
   }
   return jet;

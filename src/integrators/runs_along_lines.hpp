@@ -52,7 +52,8 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
   const std::size_t n = problem.system->degrees_of_freedom;
   std::vector<Real> entries = direction;
   for (std::size_t v = 0; v < entries.size(); ++v) {
-    if (problem.variables[v] >= n) entries[v] *= Real(std::ldexp(1.0, exponent));
+    const bool is_momentum = problem.variables[v] >= n && problem.variables[v] < 2 * n;
+    if (is_momentum) entries[v] *= Real(std::ldexp(1.0, exponent));
   }
   return {problem.system,
           line,
@@ -109,11 +110,12 @@ StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
 
 /// The jets along the directions that a run has reached, in the estimate's unit of momentum.
 template <class Real>
-std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run,
+std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run, std::size_t degrees_of_freedom,
                                         const ErrorEstimateSettings& settings) {
   std::vector<FlowJet<Real>> lines = line_by_line(run);
   for (FlowJet<Real>& line : lines) {
-    line = in_momentum_unit(std::move(line), variable_of_line, settings.momentum_exponent);
+    line = in_momentum_unit(std::move(line), variable_of_line, degrees_of_freedom,
+                            settings.momentum_exponent);
   }
   return lines;
 }
@@ -127,7 +129,7 @@ std::vector<FlowJet<Real>> run_along(const FlowProblem<Real>& problem,
       integrate_gauss<Real>(problem_along(problem, directions, settings.momentum_exponent),
                             settings_of_run<Real>(number, settings), statistics,
                             observer_of_run<Real>(problem.duration, number, settings)),
-      settings);
+      problem.system->degrees_of_freedom, settings);
 }
 
 /// The directions of one run, selected from those that were drawn.

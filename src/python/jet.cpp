@@ -43,7 +43,8 @@ std::string names_of(const io::StoredJet& stored, const std::vector<std::size_t>
 
 void require_same_system(const io::StoredJet& first, const io::StoredJet& second) {
   if (first.model != second.model ||
-      first.nominal_initial.size() != second.nominal_initial.size()) {
+      first.nominal_initial.size() != second.nominal_initial.size() ||
+      (first.parameters + second.parameters > 0 && first.own_names != second.own_names)) {
     refuse(fmt::format("compose: the jets are of different systems, {} and {}",
                        model_name(first.model), model_name(second.model)));
   }
@@ -166,6 +167,12 @@ Jet Jet::inverse() const {
 }
 
 std::vector<SymplecticityDefect> Jet::symplecticity() const {
+  if (stored_.parameters > 0) {
+    refuse(
+        fmt::format("symplecticity: the state ends with {}, must be one of positions and momenta "
+                    "alone, as by a jet whose variables are without parameters",
+                    stored_.own_names.back()));
+  }
   return symplecticity_by_degree(stored_.jet);
 }
 

@@ -36,7 +36,7 @@ constexpr const char* from_arrays_doc =
 coefficients: (components, count), finite. exponents: (count, variables), of the initial deviations,
 each row once, in any order; a term that is not there is zero, and the row of zeros, which must be
 there, has the nominal's final state. nominal_initial: (2n,), the state (q, p) of all variables of
-the system. duration_canonical: of the flow. units: a Units. model: as in scenes, or "own" for a
+the system, and behind it the numbers of the `state_parameters`, which are names. duration_canonical: of the flow. units: a Units. model: as in scenes, or "own" for a
 Hamiltonian that they do not have. variables, components: names of those that the jet is expanded
 in and has; by default all. scene, run: names for messages and files.
 
@@ -94,13 +94,11 @@ SystemModel model_from(const std::string& name) {
   return static_cast<SystemModel>(found - names.begin());
 }
 
-std::vector<double> state_from(const py::object& given, SystemModel model) {
+std::vector<double> state_from(const py::object& given, SystemModel model, std::size_t parameters) {
   const auto numbers = array_from<Numbers>(given, 1, "nominal_initial");
-  const auto possible = possible_degrees_of_freedom(model);
+  const std::vector<std::size_t> sizes = possible_dimensions(model, parameters);
   const auto size = static_cast<std::size_t>(numbers.size());
-  if (size % 2 != 0 || std::find(possible.begin(), possible.end(), size / 2) == possible.end()) {
-    std::vector<std::size_t> sizes;
-    for (const std::size_t n : possible) sizes.push_back(2 * n);
+  if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) {
     refuse(fmt::format("from_arrays: nominal_initial: got {} numbers, must be {} of the model {}",
                        size, fmt::join(sizes, " or "), model_name(model)));
   }
@@ -207,7 +205,8 @@ FlowJet<Extended> series_from(const Numbers& coefficients, const Integers& expon
 void warn_if_not_symplectic(const std::shared_ptr<Jet>& jet) {
   const io::StoredJet& stored = jet->stored();
   const std::size_t all = stored.nominal_initial.size();
-  if (stored.components.size() != all || stored.variables.size() != all) return;
+  if (stored.parameters > 0 || stored.components.size() != all || stored.variables.size() != all)
+    return;
   const auto defects =
       interruptibly(py::none(), [jet](const ProgressCallback&) { return jet->symplecticity(); });
   const auto worst = std::max_element(defects.begin(), defects.end(),
@@ -224,7 +223,8 @@ std::shared_ptr<Jet> from_arrays(const py::object& coefficients, const py::objec
                                  const py::object& nominal_initial, double duration,
                                  const CanonicalUnits& units, const std::string& model,
                                  const Names& variables, const Names& components,
-                                 const std::string& scene, const std::string& run) {
+                                 const std::string& scene, const std::string& run,
+                                 const Names& state_parameters) {
   io::StoredJet stored;
   stored.scene = name_from(scene, "scene");
   stored.label = name_from(run, "run");
@@ -234,7 +234,11 @@ std::shared_ptr<Jet> from_arrays(const py::object& coefficients, const py::objec
     refuse(fmt::format("from_arrays: duration_canonical: got {}, must be finite", duration));
   }
   stored.duration = duration;
-  stored.nominal_initial = state_from(nominal_initial, stored.model);
+  const std::vector<std::string> parameters = state_parameters.value_or(std::vector<std::string>());
+  stored.nominal_initial = state_from(nominal_initial, stored.model, parameters.size());
+  if (const auto problem = io::set_state_parameters(stored, parameters)) {
+    refuse("from_arrays: state_parameters: " + *problem);
+  }
   stored.variables = indices_from(variables, stored.variable_names(), "variables");
   stored.components = indices_from(components, stored.variable_names(), "components");
   stored.jet = series_from(array_from<Numbers>(coefficients, 2, "coefficients"),
@@ -257,8 +261,10 @@ void bind_jet_arrays(py::class_<Jet, std::shared_ptr<Jet>>& jet) {
       py::arg("nominal_initial"), py::arg("duration_canonical"), py::arg("units"), py::arg("model"),
       py::arg("variables") = py::none(), py::arg("components") = py::none(),
       py::arg("scene") = "arrays", py::arg("run") = "arrays",
+      py::arg("state_parameters") = py::none(),
       documented("from_arrays(coefficients, exponents, *, nominal_initial, duration_canonical, "
-                 "units, model, variables=None, components=None, scene='arrays', run='arrays')",
+                 "units, model, variables=None, components=None, scene='arrays', run='arrays', "
+                 "state_parameters=None)",
                  from_arrays_doc)
           .c_str());
 }

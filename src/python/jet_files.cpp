@@ -45,7 +45,7 @@ path: a file .h5; a file .csv or .dace beside the summary.json of its results or
 or a directory of results. run: the label of the run; by default the first that has a result.
 model, units, duration_canonical, nominal_initial: all of them for a file .dace from elsewhere,
 which says nothing but its polynomials, the final state by the deviations; they are as in
-`from_arrays`.
+`from_arrays`, and so are the state_parameters of such a file, if it has some.
 
 Raises UsageError if no run has this label, InputOutputError if the file is not what was written,
 and of these MissingFileError, a FileNotFoundError, if it is not there.)";
@@ -128,12 +128,13 @@ void bind_jet_files(py::module_& module, py::class_<Jet, std::shared_ptr<Jet>>& 
           "load",
           [](const py::object& path, const std::optional<std::string>& run,
              const std::optional<std::string>& model, const std::optional<CanonicalUnits>& units,
-             std::optional<double> duration, const std::optional<std::vector<double>>& nominal) {
+             std::optional<double> duration, const std::optional<std::vector<double>>& nominal,
+             const std::optional<std::vector<std::string>>& parameters) {
             require_all({{"model", model.has_value()},
                          {"units", units.has_value()},
                          {"duration_canonical", duration.has_value()},
                          {"nominal_initial", nominal.has_value()}});
-            io::JetDescription foreign{model, {}, {}, duration, nominal};
+            io::JetDescription foreign{model, {}, {}, duration, nominal, parameters};
             if (units) {
               foreign.length_unit_km = units->length_km;
               foreign.time_unit_s = units->time_s;
@@ -143,8 +144,9 @@ void bind_jet_files(py::module_& module, py::class_<Jet, std::shared_ptr<Jet>>& 
           py::arg("path"), py::arg("run") = py::none(), py::kw_only(),
           py::arg("model") = py::none(), py::arg("units") = py::none(),
           py::arg("duration_canonical") = py::none(), py::arg("nominal_initial") = py::none(),
+          py::arg("state_parameters") = py::none(),
           documented("load(path, run=None, *, model=None, units=None, duration_canonical=None, "
-                     "nominal_initial=None)",
+                     "nominal_initial=None, state_parameters=None)",
                      load_doc)
               .c_str());
   module.def(

@@ -24,6 +24,12 @@ bool is_planar_subsystem(const Scene& scene) {
 std::size_t degrees_of_freedom_of_kinds(const TableReader& table, std::string_view key,
                                         const Scene& scene) {
   const std::vector<std::string_view> names = variable_names(scene.system);
+  if (const auto& parameters = state_parameters(scene.system); !parameters.empty()) {
+    table.fail(key, fmt::format("not defined beside the parameter {} among jet.variables, got {}, "
+                                "must be left out: a generating function is one of positions and "
+                                "momenta alone",
+                                parameters[0], table.found(key)));
+  }
   if (is_planar_subsystem(scene)) return 2;
   if (scene.variables.size() != names.size()) {
     std::vector<std::string_view> given;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "../studies/earth_system.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_relative_motion.hpp"
@@ -54,7 +55,25 @@ int read_order(const TableReader& jet, std::size_t variables, Precision precisio
   return static_cast<int>(jet.integer("order"));
 }
 
-std::vector<std::size_t> read_variables(const TableReader& jet,
+/// Names that `jet.variables` may have beside those of the state.
+std::vector<std::string> names_of_parameters(const SystemSettings& system) {
+  std::vector<std::string> names;
+  const std::vector<std::string>& known = state_parameters(system);
+  const auto add = [&](const std::string& name) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) names.push_back(name);
+  };
+  if (system.own_text) {
+    for (const NamedText& parameter : system.own_text->parameters) add(parameter.name);
+  }
+  if (system.earth) {
+    for (const EarthParameter& parameter : earth_parameters()) {
+      if (!parameter.missing || !parameter.missing(system)) add(parameter.name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::size_t> read_variables(const TableReader& jet, const SystemSettings& system,
                                         const std::vector<std::string_view>& names) {
   std::vector<std::size_t> variables(names.size());
   if (!jet.has("variables")) {
@@ -66,9 +85,12 @@ std::vector<std::size_t> read_variables(const TableReader& jet,
   for (std::size_t i = 0; i < given.size(); ++i) {
     const auto name = std::find(names.begin(), names.end(), given[i]);
     if (name == names.end()) {
+      const std::vector<std::string> parameters = names_of_parameters(system);
+      std::vector<std::string_view> right = names;
+      right.insert(right.end(), parameters.begin(), parameters.end());
       jet.fail_element("variables", i,
                        fmt::format("unknown variable, got {}, must be one of: {}",
-                                   in_quotes(given[i]), listed(names)));
+                                   in_quotes(given[i]), listed(right)));
     }
     const auto index = static_cast<std::size_t>(name - names.begin());
     if (std::find(variables.begin(), variables.end(), index) != variables.end()) {
@@ -94,6 +116,27 @@ std::optional<std::size_t> read_arcs(const TableReader& jet) {
 
 }  // namespace
 
+namespace {
+
+/// Kept for the table, which refers to its texts.
+const std::string& help_of_variables() {
+  static const std::string text = [] {
+    std::string words =
+        "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model `own` "
+        "by "
+        "its own names and parameters, without choice the states of a vector field; about the real "
+        "Earth also";
+    for (const EarthParameter& parameter : earth_parameters()) {
+      words += fmt::format(" `{}`,", parameter.name);
+    }
+    words.pop_back();
+    return words;
+  }();
+  return text;
+}
+
+}  // namespace
+
 const TableDescription& jet_table() {
   const auto other_duration = absent::other("another duration");
   // Only orbits have periods.
@@ -106,11 +149,7 @@ const TableDescription& jet_table() {
           {{{"order", form::integer(1, largest_order), absent::value(JetSettings().order),
              "degree of the Taylor polynomials in the initial deviations"},
             {"variables", form::words("array of the model's variables", form::array(form::text())),
-             absent::other("all"),
-             "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model "
-             "`own` "
-             "by its own names, without choice the states of a vector field; with an atmosphere "
-             "also `drag_m2_kg` or `density_factor`, with radiation `radiation_m2_kg`"},
+             absent::other("all"), help_of_variables()},
             {"duration_s", form::number(), other_duration, "negative is backwards"},
             {"duration_canonical", form::number(), other_duration, "the same"},
             {"arcs",
@@ -179,7 +218,7 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   const std::vector<std::string_view> names = variable_names(system);
   JetSettings settings;
   settings.order = read_order(jet, names.size(), precision);
-  settings.variables = read_variables(jet, names);
+  settings.variables = read_variables(jet, system, names);
   const bool has_adjoint = system.own_text && !system.own_text->is_hamiltonian();
   if (has_adjoint && !jet.has("variables")) settings.variables.resize(names.size() / 2);
   settings.duration = read_duration(jet, is_orbit(system.model), nominal);
@@ -188,7 +227,13 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   jet.read_if_any("coordinates", settings.coordinates.start);
   settings.coordinates.end = settings.coordinates.start;
   jet.read_if_any("end_coordinates", settings.coordinates.end);
-  const bool has_parameter = system.earth && !system.earth->parameters.empty();
+  const bool has_parameter = !state_parameters(system).empty();
+  if (has_parameter && has_time_shift(settings.symmetry)) {
+    jet.fail("symmetry",
+             fmt::format("beside the variable {}, got {}, must be \"rotation\" or \"none\": the "
+                         "energy of a shift in time depends on the parameter",
+                         state_parameters(system)[0], jet.found("symmetry")));
+  }
   for (const std::string_view key : {"coordinates", "end_coordinates"}) {
     if (!has_parameter || !jet.has(key) || jet.text(key) == "cartesian") continue;
     jet.fail(key, fmt::format("beside a parameter among the variables, got {}, must be "

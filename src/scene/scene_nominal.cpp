@@ -144,17 +144,16 @@ CanonicalScale read_units_of_own(const TableReader& units) {
 
 namespace {
 
-/// The state of a system that the scene writes; adjoint variables begin with 0.
+/// The state of a system that the scene writes; adjoint variables begin with 0, and parameters of
+/// the state are at the end.
 std::vector<double> read_own_state(const TableReader& nominal, const SystemSettings& system) {
   const std::size_t n = degrees_of_freedom_of(system);
-  if (!system.own_text->is_hamiltonian()) {
-    std::vector<double> state = nominal.numbers("states", n);
-    state.resize(2 * n, 0);
-    return state;
-  }
-  std::vector<double> state = nominal.numbers("coordinates", n);
-  const std::vector<double> momenta = nominal.numbers("momenta", n);
+  const bool is_hamiltonian = system.own_text->is_hamiltonian();
+  std::vector<double> state = nominal.numbers(is_hamiltonian ? "coordinates" : "states", n);
+  std::vector<double> momenta(n, 0);
+  if (is_hamiltonian) momenta = nominal.numbers("momenta", n);
   state.insert(state.end(), momenta.begin(), momenta.end());
+  for (const double value : parameter_values(system)) state.push_back(value);
   return state;
 }
 

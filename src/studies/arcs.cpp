@@ -10,7 +10,7 @@ namespace hamjet {
 std::optional<std::string> reason_not_to_split(const Scene& scene,
                                                const IntegratorSettings& settings) {
   const MethodDescription& method = description_of(settings.method);
-  if (scene.system.earth && !scene.system.earth->parameters.empty()) {
+  if (!state_parameters(scene.system).empty()) {
     return "states with a parameter are not split";
   }
   if (!method.splittable(settings)) return fmt::format("{} is not available in arcs", method.name);

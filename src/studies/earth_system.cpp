@@ -1,6 +1,10 @@
 #include "earth_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -38,6 +42,84 @@ SpacecraftCoefficient coefficient(const EarthSettings& earth, std::string_view n
 }
 
 constexpr std::string_view density_factor_name = "density_factor";
+constexpr std::string_view mu_name = "mu_km3_s2";
+constexpr std::array<std::string_view, 3> thrust_names = {"thrust_R_m_s2", "thrust_T_m_s2",
+                                                          "thrust_N_m_s2"};
+/// The zonal coefficients that may be parameters.
+constexpr int highest_zonal_parameter = 6;
+
+std::string zonal_name(int n) { return fmt::format("J{}", n); }
+
+std::optional<MissingForce> without_air(const SystemSettings& settings) {
+  if (settings.earth->atmosphere) return std::nullopt;
+  return MissingForce{"of no effect without air", "beside system.atmosphere"};
+}
+
+std::vector<EarthParameter> describe_parameters() {
+  std::vector<EarthParameter> all = {
+      {std::string(drag_parameter), "C_D A / m in m^2/kg",
+       [](const SystemSettings& s) { return s.earth->drag_m2_kg; }, without_air},
+      {std::string(density_factor_name), "of all densities of the air",
+       [](const SystemSettings& s) {
+         return s.earth->atmosphere ? s.earth->atmosphere->density_factor : 1;
+       },
+       without_air},
+      {std::string(radiation_parameter), "C_R A / m in m^2/kg",
+       [](const SystemSettings& s) { return s.earth->radiation_m2_kg; },
+       [](const SystemSettings& s) -> std::optional<MissingForce> {
+         if (s.earth->radiation) return std::nullopt;
+         return MissingForce{"of no effect without light", "beside system.radiation = true"};
+       }},
+      {std::string(mu_name), "gravitational parameter of the Earth in km^3/s^2",
+       [](const SystemSettings& s) { return s.mu_km3_s2; }}};
+  for (int n = ZonalCoefficients::lowest; n <= highest_zonal_parameter; ++n) {
+    all.push_back({zonal_name(n), "zonal coefficient, not normalised, tide-free",
+                   [n](const SystemSettings& s) { return s.J[n]; },
+                   [n](const SystemSettings& s) -> std::optional<MissingForce> {
+                     if (n <= s.earth->degree) return std::nullopt;
+                     return MissingForce{
+                         fmt::format("beyond the field of degree {}", s.earth->degree),
+                         fmt::format("beside gravity_degree = {} or more", n)};
+                   }});
+  }
+  for (const std::string_view name : thrust_names) {
+    all.push_back({std::string(name), "constant acceleration along R, T or N of the orbit in m/s^2",
+                   [](const SystemSettings&) { return 0.0; }});
+  }
+  return all;
+}
+
+/// Along R, T, N, in canonical units of acceleration; no value where none is a parameter.
+std::optional<OrbitThrust> thrust_of(const EarthSettings& earth, const Extended& length_km,
+                                     const Extended& time_s) {
+  OrbitThrust thrust;
+  bool is_there = false;
+  for (std::size_t i = 0; i < thrust_names.size(); ++i) {
+    thrust.along[i] = coefficient(earth, thrust_names[i], 0);
+    is_there = is_there || thrust.along[i].parameter;
+  }
+  if (!is_there) return std::nullopt;
+  thrust.unit = time_s * time_s / (length_km * 1000);
+  return thrust;
+}
+
+/// mu and the zonal coefficients that are parameters.
+void vary_field(const SystemSettings& settings, double canonical_radius,
+                GravityOfTurningBody& gravity) {
+  const EarthSettings& earth = *settings.earth;
+  gravity.scale = coefficient(earth, mu_name, 1);
+  if (gravity.scale.parameter) gravity.unit_of_scale = Extended(1) / settings.mu_km3_s2;
+  for (int n = ZonalCoefficients::lowest; n <= highest_zonal_parameter; ++n) {
+    const SpacecraftCoefficient J = coefficient(earth, zonal_name(n), settings.J[n]);
+    if (!J.parameter) continue;
+    SphericalHarmonicCoefficients unit(n, 0);
+    unit.C(0, 0) = 0;
+    unit.C(n, 0) = -1 / std::sqrt(2.0 * n + 1);
+    gravity.variations.push_back(
+        {std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, std::move(unit)),
+         J});
+  }
+}
 
 // Splines through the shipped tables are made once: systems are made several times in a study.
 struct HarrisPriesterProfiles {
@@ -107,11 +189,7 @@ std::shared_ptr<const PointMassField> pressure_potential(const EarthClock& clock
 }  // namespace
 
 const std::vector<EarthParameter>& earth_parameters() {
-  static const std::vector<EarthParameter> parameters = {
-      {drag_parameter, [](const EarthSettings& e) { return e.drag_m2_kg; }},
-      {density_factor_name,
-       [](const EarthSettings& e) { return e.atmosphere ? e.atmosphere->density_factor : 1; }},
-      {radiation_parameter, [](const EarthSettings& e) { return e.radiation_m2_kg; }}};
+  static const std::vector<EarthParameter> parameters = describe_parameters();
   return parameters;
 }
 
@@ -125,11 +203,12 @@ void add_parameter(SystemSettings& settings, std::string_view name) {
 }
 
 std::vector<double> parameter_values(const SystemSettings& settings) {
+  if (settings.own_text) return state_parameter_values(*settings.own_text);
   std::vector<double> values;
   if (!settings.earth) return values;
   for (const std::string& name : settings.earth->parameters) {
     for (const EarthParameter& parameter : earth_parameters()) {
-      if (parameter.name == name) values.push_back(parameter.value(*settings.earth));
+      if (parameter.name == name) values.push_back(parameter.value(settings));
     }
   }
   return values;
@@ -167,7 +246,11 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
         RadiationPressure{pressure_potential(clock), sun, earth.sunlight,
                           coefficient(earth, radiation_parameter, earth.radiation_m2_kg)};
   }
+  vary_field(settings, canonical_radius, gravity);
   DynamicalSystem system = earth_gravity(gravity);
+  if (const auto thrust = thrust_of(earth, clock.length_km, clock.time_s)) {
+    system = with_thrust(system, *thrust);
+  }
   if (earth.radiation && earth.sunlight) system.break_times = earth.sunlight->edges();
   if (!earth.atmosphere) return system;
   const AtmosphereSettings& air = *earth.atmosphere;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,11 +13,21 @@
 
 namespace hamjet {
 
+/// Why a parameter has no effect in a scene: what is wrong, and beside what it would be right.
+struct MissingForce {
+  std::string what;
+  std::string right;
+};
+
 /// A quantity that may be a parameter of the model `earth`, and with it a variable of jets and a
-/// difference between spacecraft.
+/// difference between spacecraft. Each is said here alone: `name` is that of jet.variables, which a
+/// part of the system finds again by SpacecraftCoefficient.
 struct EarthParameter {
-  std::string_view name;                  ///< in `jet.variables`, and of its key
-  double (*value)(const EarthSettings&);  ///< the chief's
+  std::string name;
+  std::string help;                                    ///< what it is, with its unit
+  std::function<double(const SystemSettings&)> value;  ///< the chief's
+  /// Why it would have no effect in a scene; null if it always has one.
+  std::function<std::optional<MissingForce>(const SystemSettings&)> missing = {};
 };
 const std::vector<EarthParameter>& earth_parameters();
 
@@ -26,8 +39,7 @@ inline constexpr std::string_view radiation_parameter = "radiation_m2_kg";
 /// has which value is the caller's to say.
 void add_parameter(SystemSettings& settings, std::string_view name);
 
-/// The chief's values of a system's parameters, in the order in which states have them; empty for
-/// other models.
+/// The values of a system's state_parameters: the chief's, or those of an own system.
 std::vector<double> parameter_values(const SystemSettings& settings);
 
 /// The position of the Sun in canonical units, of a system with this radius of its field.

@@ -30,8 +30,9 @@ void require_states(const Scene& scene, std::vector<std::vector<double>>& states
       throw Error(ErrorKind::usage, fmt::format("{}: state {} has {} numbers, must have {}", who, i,
                                                 states[i].size(), size));
     }
-    for (std::size_t k = 0; k < size && is_in_km; ++k) {
-      states[i][k] /= k < size / 2 ? length : length / scene.units.time_s;
+    // Parameters behind positions and velocities have their own units.
+    for (std::size_t k = 0; k < 6 && is_in_km; ++k) {
+      states[i][k] /= k < 3 ? length : length / scene.units.time_s;
     }
   }
 }

@@ -37,8 +37,10 @@ double told_time(const Scene& scene, double time) { return time * told_factors(s
 
 std::vector<double> told_state(const Scene& scene, std::vector<double> state) {
   const CanonicalFactors factors = told_factors(scene);
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    state[i] *= i < state.size() / 2 ? factors.length : factors.momentum;
+  // Parameters behind positions and momenta have their own units.
+  const std::size_t n = degrees_of_freedom_of(scene.system);
+  for (std::size_t i = 0; i < std::min(2 * n, state.size()); ++i) {
+    state[i] *= i < n ? factors.length : factors.momentum;
   }
   return state;
 }

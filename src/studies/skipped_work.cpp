@@ -116,7 +116,10 @@ void add_parts(const PropagationResult& result, std::vector<SkippedWork>& skippe
     skipped.push_back({"reference", "the scene has no table [reference]: no errors, no floors"});
   }
   if (!result.problem.is_full_jet) {
-    skipped.push_back({"Poisson brackets", "the jet is not expanded in all variables"});
+    const bool has_parameters = !state_parameters(scene.system).empty();
+    skipped.push_back({"Poisson brackets", has_parameters
+                                               ? "the jet is expanded in parameters beside (q, p)"
+                                               : "the jet is not expanded in all variables"});
   }
   if (!scene.kinds) {
     skipped.push_back({"generating functions", "the scene has no table [generating_function]"});

@@ -33,7 +33,7 @@ bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) ==
 class JetFileTest : public ::testing::Test {
  protected:
   PropagationResult store(const std::vector<Override>& overrides = {}) {
-    Scene scene = parse_scene(cubic_kepler, "scene.toml", overrides);
+    Scene scene = parse_scene(text_, "scene.toml", overrides);
     scene.start_time = start_time_;
     scene.output.formats = {"dace"};
     if (hdf5_available()) scene.output.formats.emplace_back("hdf5");
@@ -61,6 +61,8 @@ class JetFileTest : public ::testing::Test {
     EXPECT_EQ(stored.nominal_final, right.nominal_final);
     EXPECT_EQ(stored.components, right.components);
     EXPECT_EQ(stored.variables, right.variables);
+    EXPECT_EQ(stored.own_names, right.own_names);
+    EXPECT_EQ(stored.parameters, right.parameters);
     expect_same(stored.jet, right.jet);
   }
 
@@ -101,6 +103,7 @@ class JetFileTest : public ::testing::Test {
     expect_error([&] { read_jet_file(file, label); }, kind, words, words[0]);
   }
 
+  std::string text_ = cubic_kepler;
   ClockTime start_time_ = ClockTime::epoch();
   const test::TemporaryDirectory temporary_;
   const std::filesystem::path directory_ = temporary_.path() / "results";
@@ -132,6 +135,53 @@ TEST_F(JetFileTest, SaysThatItsForcesDependOnTheTime) {
 TEST_F(JetFileTest, FewerComponentsAndVariables) {
   expect_round_trips({{"jet.variables", "[\"x\", \"y\", \"px\", \"py\"]"}});
   expect_round_trips({{"jet.variables", "[\"x\", \"pz\"]"}, {"generating_function", "null"}});
+}
+
+// States that end with parameters, one and two of them: an even number of numbers is no reason to
+// take the last for a momentum.
+TEST_F(JetFileTest, StatesThatEndWithParameters) {
+  text_ = R"(schema = 1
+[system]
+model = "own"
+coordinates = ["q"]
+momenta = ["p"]
+parameters = { k = 2, b = 0.5 }
+hamiltonian = "p^2/2 + k*q^2/2 + b*q^4/4"
+[nominal]
+coordinates = [1]
+momenta = [0.25]
+[jet]
+order = 2
+duration_canonical = 0.7
+)";
+  expect_round_trips({{"jet.variables", "[\"q\", \"p\", \"b\"]"}});
+  expect_round_trips({{"jet.variables", "[\"q\", \"b\", \"k\"]"}});
+  const StoredJet jet = read_jet_file(directory_);
+  EXPECT_EQ(jet.own_names, (std::vector<std::string>{"q", "p", "b", "k"}));
+  EXPECT_EQ(jet.parameters, 2U);
+  EXPECT_EQ(jet.degrees_of_freedom(), 1U);
+  EXPECT_EQ(jet.nominal_initial, (std::vector<double>{1, 0.25, 0.5, 2}));
+  // The same polynomials as a file from elsewhere, which says nothing of the state.
+  text_ = cubic_kepler;
+  StoredJet plain = jet;
+  plain.variables = plain.components;
+  plain.jet.clear();
+  const SpacePointer space = SeriesSpace::create(4, 1);
+  for (std::size_t i = 0; i < 4; ++i) {
+    plain.jet.push_back(Series<Extended>::variable(space, i, Extended(jet.nominal_initial[i])));
+  }
+  const auto file = temporary_.path() / "elsewhere.dace";
+  test::put(file, jet_file_content(plain, dace_format));
+  JetDescription foreign{"own", 1, 1, 0.7, jet.nominal_initial, {{"b", "k"}}};
+  const StoredJet read = read_jet_file(file, {}, foreign);
+  EXPECT_EQ(read.parameters, 2U);
+  EXPECT_EQ(read.own_names, jet.own_names);
+  foreign.state_parameters = {{"p", "k"}};
+  expect_error([&] { read_jet_file(file, {}, foreign); }, ErrorKind::usage,
+               {"state_parameters", "each once, other than q, p"}, "names");
+  foreign.model = "kepler";
+  expect_error([&] { read_jet_file(file, {}, foreign); }, ErrorKind::usage, {"nominal_initial"},
+               "model");
 }
 
 TEST_F(JetFileTest, ExtendedPrecision) {

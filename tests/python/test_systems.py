@@ -75,6 +75,43 @@ def test_a_vector_field_is_that_of_a_damped_oscillator():
     assert end[0] == pytest.approx(math.cos(3), abs=1e-11)
 
 
+def test_parameters_are_variables(tmp_path):
+    """A particle on a spring: q = cos(w t) + sin(w t)/w with w = sqrt(k), from q = p = 1."""
+    system = hamjet.system("p^2/2 + k*q^2/2", coordinates="q", parameters={"k": 2.25})
+    scene = system.scene([1, 1], duration=2, order=3, variables=["q", "p", "k"])
+    jet = hamjet.run(scene).runs["gauss8"].jet
+    assert jet.variables == jet.components == ("q", "p", "k")
+    # The series of q in dk by that of w, to degree 3.
+    w = np.poly1d([1.5**-5 / 16, -1.5**-3 / 8, 1 / 3, 1.5])
+    t, d = 2, w - 1.5
+    steps = [np.poly1d([1]), d * t, d**2 * t**2 / 2, d**3 * t**3 / 6]
+    cos, sin = math.cos(1.5 * t), math.sin(1.5 * t)
+    of_cos = sum(c * s for c, s in zip((cos, -sin, -cos, sin), steps))
+    of_sin = sum(c * s for c, s in zip((sin, cos, -sin, -cos), steps))
+    inverse = sum((-1)**n * d**n / 1.5**(n + 1) for n in range(1, 4)) + 1 / 1.5
+    right = (of_cos + of_sin * inverse).coef[::-1]
+    exponents = jet.exponents.tolist()
+    for degree in range(4):
+        found = jet.coefficients[0][exponents.index([0, 0, degree])]
+        assert found == pytest.approx(right[degree], abs=1e-11)
+    again = pickle.loads(pickle.dumps(jet))
+    assert again.variables == jet.variables
+    built = hamjet.Jet.from_arrays(
+        jet.coefficients, jet.exponents, nominal_initial=jet.nominal_initial,
+        duration_canonical=jet.duration_canonical, units=jet.units, model="own",
+        state_parameters=["k"])
+    assert built.variables == ("q", "p", "k")
+    assert (built.evaluate([[0.1, 0, 0.2]]) == jet.evaluate([[0.1, 0, 0.2]])).all()
+    assert (jet.inverse() @ jet).linear_part == pytest.approx(np.eye(3), abs=1e-12)
+    for refused in (jet.symplecticity, lambda: jet.invert_partially("F1")):
+        with pytest.raises(hamjet.UsageError, match="parameters|ends with k"):
+            refused()
+    with pytest.raises(hamjet.UsageError, match="state_parameters: got"):
+        hamjet.Jet.from_arrays(
+            jet.coefficients, jet.exponents, nominal_initial=jet.nominal_initial,
+            duration_canonical=2, units=jet.units, model="own", state_parameters=["q"])
+
+
 @pytest.mark.parametrize("function, words", [
     (lambda q, p: p if q > 0 else -p, "a branch depends on a symbol"),
     (lambda q, p: p if q == 0 else -p, "a branch depends on a symbol"),

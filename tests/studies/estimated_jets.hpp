@@ -115,9 +115,9 @@ inline std::vector<JudgedDegree> judged_degrees_of_jet(const Scene& scene) {
   const RunResult& run = result.runs.front();
   if (!run.failure.empty() || !run.error_estimate.by_degree || run.jet.size() != 6) return {};
   const int exponent = natural_momentum_exponent(true, scene.nominal);
-  const auto errors =
-      relative_error_by_degree(in_momentum_unit(run.jet, scene.variables, exponent),
-                               in_momentum_unit(jet_of_ellipse(scene), scene.variables, exponent));
+  const auto errors = relative_error_by_degree(
+      in_momentum_unit(run.jet, scene.variables, 3, exponent),
+      in_momentum_unit(jet_of_ellipse(scene), scene.variables, 3, exponent));
   std::vector<JudgedDegree> degrees;
   for (std::size_t d = 0; d < errors.size(); ++d) {
     degrees.push_back({static_cast<int>(d), errors[d], (*run.error_estimate.by_degree)[d]});

@@ -33,6 +33,13 @@ struct RadiationPressure {
   SpacecraftCoefficient coefficient;            ///< C
 };
 
+/// A field that a parameter c adds to the body's, (c - nominal) times its potential: the body's
+/// field is linear in each of its coefficients.
+struct FieldVariation {
+  std::shared_ptr<const LocalField> potential;  ///< in axes that are fixed to the body
+  SpacecraftCoefficient coefficient;            ///< c, whose `value` is the nominal
+};
+
 /// The gravity that acts on a satellite of a body that turns. All units are the caller's, times
 /// are counted from the caller's epoch.
 struct GravityOfTurningBody {
@@ -40,7 +47,11 @@ struct GravityOfTurningBody {
   std::shared_ptr<const TimeFunction> axes;     ///< R, row after row: from inertial to fixed axes
   std::vector<DisturbingBody> others;
   std::optional<RadiationPressure> radiation = {};
-  std::size_t parameters = 0;  ///< of the system, of which `radiation` may name one
+  std::vector<FieldVariation> variations = {};  ///< of the body's field
+  /// What U and its variations are multiplied by, in a unit of its own: mu may be a parameter.
+  SpacecraftCoefficient scale = {1};
+  Extended unit_of_scale = 1;
+  std::size_t parameters = 0;  ///< of the system, which the coefficients may name
 };
 
 /// The system in z = (x, y, z, p_x, p_y, p_z), inertial axes about the body's centre, momenta per
@@ -48,11 +59,11 @@ struct GravityOfTurningBody {
 ///
 ///   H = |p|^2/2 - U(R(t) q) - sum over the others of mu [1/|q - s(t)| - q . s(t) / |s(t)|^3] ,
 ///
-/// and with C light(t) k / |q - s(t)| for the radiation. The term q . s(t) is the acceleration of
-/// the central body, with which the axes move. All potentials are evaluated along the fixed axes,
-/// so that their local polynomials are summed before they are composed with a series. Source:
-/// Montenbruck and Gill, Satellite Orbits, chapter 3. Throws Error(usage) for a missing part or one
-/// of another size.
+/// where variations by parameters are added to U, and with C light(t) k / |q - s(t)| for the
+/// radiation. The term q . s(t) is the acceleration of the central body, with which the axes move.
+/// All potentials are evaluated along the fixed axes, so that their local polynomials are summed
+/// before they are composed with a series. Source: Montenbruck and Gill, Satellite Orbits,
+/// chapter 3. Throws Error(usage) for a missing part or one of another size.
 DynamicalSystem earth_gravity(const GravityOfTurningBody& gravity);
 
 }  // namespace hamjet

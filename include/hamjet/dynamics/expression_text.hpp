@@ -33,6 +33,9 @@ struct NamedText {
 /// A function of real variables as text.
 struct FunctionText {
   std::vector<std::string> variables;  ///< names of the inputs, in their order
+  /// Names of further inputs behind them, to which parameters may refer as to one another: those
+  /// of parameters that are not constant.
+  std::vector<std::string> varied;
   std::vector<NamedText> parameters;   ///< constants, which may refer to one another
   std::vector<NamedText> definitions;  ///< expressions, which may refer to one another
   std::vector<NamedText> outputs;      ///< expressions; their names are for messages alone
@@ -70,12 +73,12 @@ bool is_reserved_name(std::string_view name);
 /// Whether a text can name a variable: a letter or "_", and then letters, digits and "_".
 bool is_expression_name(std::string_view name);
 
-/// The list that computes the outputs. Its inputs are the variables and, behind them, the time if
-/// an output depends on it, as none does by 0*t. Throws ExpressionTextError for whatever is wrong
-/// in the text, also where no output needs it.
+/// The list that computes the outputs. Its inputs are the variables, those of parameters that are
+/// not constant and, behind them, the time if an output depends on it, as none does by 0*t. Throws
+/// ExpressionTextError for whatever is wrong in the text, also where no output needs it.
 OperationList record_function(const FunctionText& function);
 
-/// The values of the outputs in extended precision, for values of the variables and a time. Throws
+/// The values of the outputs in extended precision, for values of the inputs and a time. Throws
 /// ExpressionTextError at the first operation of the text that has no finite value there, and
 /// Error(usage) for another number of variables.
 std::vector<Extended> evaluate_function(const FunctionText& function,

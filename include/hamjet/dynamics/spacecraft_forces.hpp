@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -48,5 +49,16 @@ struct TurningAtmosphere {
 DynamicalSystem with_drag(const DynamicalSystem& system,
                           const std::shared_ptr<const TimeFunction>& axes,
                           const TurningAtmosphere& atmosphere, const SpacecraftCoefficient& B);
+
+/// A constant acceleration along R (away from the body), T (in the plane of the motion, forward)
+/// and N (of the angular momentum) of the spacecraft's own orbit.
+struct OrbitThrust {
+  std::array<SpacecraftCoefficient, 3> along;  ///< R, T, N
+  Extended unit = 1;  ///< what a coefficient of 1 is in the system's unit of acceleration
+};
+
+/// The system with this acceleration, which comes from no potential. The system is one of three
+/// degrees of freedom, with momenta per unit mass.
+DynamicalSystem with_thrust(const DynamicalSystem& system, const OrbitThrust& thrust);
 
 }  // namespace hamjet

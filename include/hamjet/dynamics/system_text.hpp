@@ -20,6 +20,8 @@ struct SystemText {
   std::vector<std::string> momenta = {};  ///< of the coordinates, in their order
   std::vector<std::string> states = {};   ///< empty for a Hamiltonian
   std::vector<NamedText> parameters = {};
+  /// Names of those parameters with which states end; the others are constants, or depend on these.
+  std::vector<std::string> state_parameters = {};
   std::vector<NamedText> definitions = {};
   std::string hamiltonian = {};
   std::vector<NamedText> vector_field = {};  ///< the derivative of each state by the time
@@ -28,13 +30,17 @@ struct SystemText {
   std::size_t degrees_of_freedom() const noexcept {
     return is_hamiltonian() ? coordinates.size() : states.size();
   }
-  /// The names of (q, p); the adjoint variable of a state x is lambda_x.
+  /// The names of (q, p) and of the parameters of the state; the adjoint variable of a state x is
+  /// lambda_x.
   std::vector<std::string> variables() const;
   bool operator==(const SystemText&) const = default;
 };
 
 /// The most degrees of freedom of a system that is given as text.
 inline constexpr std::size_t most_degrees_of_freedom_of_text = 8;
+
+/// The values of the parameters of the state, rounded. Throws as make_system.
+std::vector<double> state_parameter_values(const SystemText& text);
 
 /// The system. A rotation of two coordinates, and of their momenta, that leaves it unchanged is
 /// found and declared. Throws ExpressionTextError for whatever is wrong in the text; parts are
@@ -43,7 +49,7 @@ inline constexpr std::size_t most_degrees_of_freedom_of_text = 8;
 DynamicalSystem make_system(std::string name, const SystemText& text);
 
 /// Throws ExpressionTextError unless the Hamiltonian (or the vector field) and the equations of
-/// motion have finite values at a state (q, p) and time.
+/// motion have finite values at a state (q, p, c) and time.
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
                        std::span<const double> state, double time = 0);
 

@@ -23,14 +23,16 @@ struct OutputFormat;
 const OutputFormat& jet_format(const std::filesystem::path& file);
 
 /// What a file of polynomials from another program does not say, in the file's own units. All
-/// members are needed; the file must have all components of a state, expanded in all of its
-/// variables.
+/// members but the last are needed; the file must have all components of a state, expanded in all
+/// of its variables.
 struct JetDescription {
   std::optional<std::string> model = {};  ///< a name of model_names()
   std::optional<double> length_unit_km = {};
   std::optional<double> time_unit_s = {};
   std::optional<double> duration_canonical = {};
   std::optional<std::vector<double>> nominal_initial = {};
+  /// Names of the parameters with which the state ends; none without it.
+  std::optional<std::vector<std::string>> state_parameters = {};
 };
 
 /// Reads the run with this label or, without a label, the first run that has a result, from a

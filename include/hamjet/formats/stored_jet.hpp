@@ -51,7 +51,7 @@ struct StoredJet {
   /// made of several or turned round.
   ClockTime start_time = ClockTime::epoch();
   bool is_autonomous = true;            ///< whether the system's forces are the same at all times
-  std::vector<double> nominal_initial;  ///< all 2n components of the model
+  std::vector<double> nominal_initial;  ///< all 2n components of the model, and its parameters
   std::vector<double> nominal_final;
   /// Components that were computed, ascending; all others vanish, whatever the deviations of the
   /// variables are.
@@ -74,18 +74,23 @@ struct StoredJet {
   std::optional<StoredFlowBox> flow_box = {};
   /// Notes of the reader about the file, one line each.
   std::vector<std::string> notes = {};
-  std::vector<std::string> own_names = {};  ///< where others than the usual ones, see SystemSettings
+  std::vector<std::string> own_names =
+      {};  ///< where others than the usual ones, see SystemSettings
+  /// The number of parameters with which states end; they are components of every jet.
+  std::size_t parameters = 0;
   /// One series for each component. In extended precision the printed digits bring back the numbers
   /// of the run bit by bit; in double precision the numbers are doubles.
   FlowJet<Extended> jet;
 
   int order() const { return jet.at(0).order(); }
+  /// The degrees of freedom of the model.
+  std::size_t degrees_of_freedom() const { return (nominal_initial.size() - parameters) / 2; }
   /// See ComputedProblem::momentum_exponent.
   int momentum_exponent() const;
   /// Names of the model's state (q, p), to which `components` and `variables` are indices.
   std::vector<std::string_view> variable_names() const {
     if (!own_names.empty()) return {own_names.begin(), own_names.end()};
-    return hamjet::variable_names(model, nominal_initial.size() / 2);
+    return hamjet::variable_names(model, degrees_of_freedom());
   }
 };
 
@@ -127,6 +132,12 @@ void require_positions_and_momenta(const StoredJet& stored, const std::string& n
 
 /// Whether a stored jet is at this time, to a relative difference of 1e-9.
 bool is_at(const StoredJet& stored, double time_s);
+
+/// Names the parameters with which the states of a jet from elsewhere end. Returns what is wrong
+/// with the names, if anything is; then the jet stays as it was. Precondition: `nominal_initial`
+/// has numbers for them.
+std::optional<std::string> set_state_parameters(StoredJet& stored,
+                                                const std::vector<std::string>& names);
 
 /// All that is stored of a run's jet except the coefficients.
 StoredJet describe_jet(const PropagationResult& result, const RunResult& run);

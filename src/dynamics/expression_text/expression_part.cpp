@@ -41,6 +41,7 @@ void ExpressionPart::fail(const ExpressionToken& token, std::string_view what,
 
 std::string part_path(ExpressionPart::Kind kind, const std::string& name) {
   switch (kind) {
+    case ExpressionPart::Kind::varied:
     case ExpressionPart::Kind::parameter:
       return "parameters." + io::printable(name);
     case ExpressionPart::Kind::definition:

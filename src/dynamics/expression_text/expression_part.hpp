@@ -12,13 +12,14 @@ namespace hamjet {
 
 /// A text of a function and what it stands for.
 struct ExpressionPart {
-  enum class Kind { variable, parameter, definition, output };
+  enum class Kind { variable, varied, parameter, definition, output };
   Kind kind = Kind::variable;
   std::string path;            ///< for messages
-  std::string_view text = {};  ///< empty for a variable
+  std::string_view text = {};  ///< empty for an input
   std::vector<ExpressionToken> tokens = {};
   std::optional<Expression> value = {};
 
+  bool is_input() const { return kind == Kind::variable || kind == Kind::varied; }
   std::string_view text_of(const ExpressionToken& token) const {
     return text.substr(token.begin, token.length);
   }

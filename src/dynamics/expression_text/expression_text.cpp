@@ -27,12 +27,17 @@ using Part = ExpressionPart;
 class ParsedFunction {
  public:
   explicit ParsedFunction(const FunctionText& function) : is_literal_(function.is_literal) {
-    const std::size_t count = function.variables.size() + function.parameters.size() +
-                              function.definitions.size() + function.outputs.size();
+    const std::size_t count = function.variables.size() + function.varied.size() +
+                              function.parameters.size() + function.definitions.size() +
+                              function.outputs.size();
     parts_.reserve(count);  // names point to parts
     for (const std::string& name : function.variables) {
       parts_.push_back({.kind = Part::Kind::variable, .path = io::printable(name)});
       name_part(name, "variables");
+    }
+    for (const std::string& name : function.varied) {
+      parts_.push_back({.kind = Part::Kind::varied, .path = part_path(Part::Kind::varied, name)});
+      name_part(name, parts_.back().path);
     }
     for (const NamedText& text : function.parameters) add(Part::Kind::parameter, text);
     for (const NamedText& text : function.definitions) add(Part::Kind::definition, text);
@@ -46,15 +51,11 @@ class ParsedFunction {
   std::vector<Expression> outputs(std::span<const Expression> inputs) {
     std::size_t next = 0;
     for (Part& part : parts_) {
-      if (part.kind == Part::Kind::variable) part.value = inputs[next++];
+      if (part.is_input()) part.value = inputs[next++];
     }
     if (uses_time_) time_ = inputs[next];
     for (Part* part : order_) {
       part->value = value_of(*part);
-      if (part->kind == Part::Kind::parameter && !part->value->is_constant()) {
-        throw ExpressionTextError(part->path,
-                                  "not constant, must be made of numbers and parameters alone");
-      }
     }
     std::vector<Expression> result;
     for (const Part& part : parts_) {
@@ -148,7 +149,7 @@ class ParsedFunction {
     const auto state = [&](const Part& part) -> char& {
       return states_[static_cast<std::size_t>(&part - parts_.data())];
     };
-    if (root.kind == Part::Kind::variable || state(root) == done) return;
+    if (root.is_input() || state(root) == done) return;
     std::vector<Visit> visits{{&root}};
     state(root) = open;
     while (!visits.empty()) {
@@ -162,7 +163,7 @@ class ParsedFunction {
       }
       const ExpressionToken& token = part.tokens[visit.next++];
       Part* const of = named(part, token);
-      if (of == nullptr || of->kind == Part::Kind::variable || state(*of) == done) continue;
+      if (of == nullptr || of->is_input() || state(*of) == done) continue;
       if (state(*of) == open) {
         part.fail(token, "defined by itself", fmt::format("must not lead back to {}", of->path));
       }
@@ -261,7 +262,8 @@ class ParsedFunction {
   Expression name(const Part& part, const ExpressionToken& token) const {
     const std::string_view text = part.text_of(token);
     if (const Part* of = named(part, token)) {
-      if (part.kind == Part::Kind::parameter && of->kind != Part::Kind::parameter) {
+      if (part.kind == Part::Kind::parameter && of->kind != Part::Kind::parameter &&
+          of->kind != Part::Kind::varied) {
         part.fail(token, "not constant", "must be made of numbers and parameters alone");
       }
       return *of->value;
@@ -365,7 +367,7 @@ OperationList record_function(const FunctionText& function) {
   ParsedFunction parsed(function);
   const bool has_time = parsed.uses_time();
   const OperationList list = record(
-      function.variables.size() + (has_time ? 1 : 0),
+      function.variables.size() + function.varied.size() + (has_time ? 1 : 0),
       [&](std::span<const Expression> inputs) { return parsed.outputs(inputs); }, has_time);
   return list.depends_on_time() ? list : at_time(list, 0);
 }
@@ -373,7 +375,7 @@ OperationList record_function(const FunctionText& function) {
 std::vector<Extended> evaluate_function(const FunctionText& function,
                                         std::span<const Extended> point, const Extended& time) {
   ParsedFunction parsed(function);
-  const std::size_t variables = function.variables.size();
+  const std::size_t variables = function.variables.size() + function.varied.size();
   if (point.size() != variables) {
     throw Error(ErrorKind::usage,
                 fmt::format("function of a text: {} numbers, must be {}", point.size(), variables));

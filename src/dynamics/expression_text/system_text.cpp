@@ -28,6 +28,31 @@ void require_names(const std::vector<std::string>& names, const std::string& par
   }
 }
 
+/// The names of (q, p), without the parameters of the state.
+std::vector<std::string> names_of_phase_space(const SystemText& text) {
+  std::vector<std::string> names = text.variables();
+  names.resize(names.size() - text.state_parameters.size());
+  return names;
+}
+
+/// Refuses parameters of the state that are none, or that have the name of an adjoint variable.
+void require_state_parameters(const SystemText& text) {
+  const std::vector<std::string> taken = names_of_phase_space(text);
+  for (const std::string& name : text.state_parameters) {
+    const auto is_it = [&](const NamedText& parameter) { return parameter.name == name; };
+    if (std::none_of(text.parameters.begin(), text.parameters.end(), is_it)) {
+      fail_part("parameters", fmt::format("not there, got {} as a parameter of the state, must be "
+                                          "one of them",
+                                          io::printable(name)));
+    }
+    if (std::find(taken.begin(), taken.end(), name) == taken.end()) continue;
+    fail_part("parameters." + io::printable(name),
+              fmt::format("a name that is taken, got {}, must be another one: a variable of the "
+                          "state has this name",
+                          io::printable(name)));
+  }
+}
+
 void require_fitting_names(const SystemText& text) {
   const std::string part = text.is_hamiltonian() ? "coordinates" : "states";
   const std::vector<std::string>& names = text.is_hamiltonian() ? text.coordinates : text.states;
@@ -43,17 +68,23 @@ void require_fitting_names(const SystemText& text) {
                           "in their order",
                           counted(text.momenta.size(), "name"), names.size()));
   }
-  require_names(text.variables(), "momenta");
+  require_names(names_of_phase_space(text), "momenta");
 }
 
 /// The text of what is recorded: of the Hamiltonian, or of the vector field.
 FunctionText function_of(const SystemText& text) {
   require_fitting_names(text);
+  require_state_parameters(text);
   FunctionText function;
-  function.parameters = text.parameters;
+  function.varied = text.state_parameters;
+  for (const NamedText& parameter : text.parameters) {
+    const auto& varied = function.varied;
+    const bool is_varied = std::find(varied.begin(), varied.end(), parameter.name) != varied.end();
+    if (!is_varied) function.parameters.push_back(parameter);
+  }
   function.definitions = text.definitions;
   if (text.is_hamiltonian()) {
-    function.variables = text.variables();
+    function.variables = names_of_phase_space(text);
     function.outputs = {{"hamiltonian", text.hamiltonian}};
     return function;
   }
@@ -85,10 +116,11 @@ OperationList hamiltonian_of(const SystemText& text) {
   if (text.is_hamiltonian()) return list;
   const std::size_t n = text.states.size();
   return record(
-      2 * n + (list.has_time() ? 1 : 0),
+      2 * n + text.state_parameters.size() + (list.has_time() ? 1 : 0),
       [&](std::span<const Expression> z) {
+        // Of (x, lambda, c, t) the field has the inputs (x, c, t).
         std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
-        if (list.has_time()) inputs.push_back(z.back());
+        inputs.insert(inputs.end(), z.begin() + static_cast<std::ptrdiff_t>(2 * n), z.end());
         const std::vector<Expression> field = recorded_outputs(list, inputs);
         Expression sum(0);
         for (std::size_t i = 0; i < n; ++i) sum += z[n + i] * field[i];
@@ -122,18 +154,35 @@ std::vector<std::string> SystemText::variables() const {
   } else {
     for (const std::string& state : states) names.push_back("lambda_" + state);
   }
+  names.insert(names.end(), state_parameters.begin(), state_parameters.end());
   return names;
 }
 
+std::vector<double> state_parameter_values(const SystemText& text) {
+  FunctionText function;
+  function.parameters = text.parameters;
+  for (const std::string& name : text.state_parameters) {
+    function.outputs.push_back({"parameters." + io::printable(name), name});
+  }
+  std::vector<double> values;
+  for (const Extended& value : evaluate_function(function, {})) {
+    values.push_back(static_cast<double>(value));
+  }
+  return values;
+}
+
 DynamicalSystem make_system(std::string name, const SystemText& text) {
-  return with_found_rotation(make_system(std::move(name), hamiltonian_of(text)));
+  return with_found_rotation(make_system(std::move(name), hamiltonian_of(text), std::nullopt,
+                                         text.state_parameters.size()));
 }
 
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
                        std::span<const double> state, double time) {
   const FunctionText function = function_of(text);
-  const std::vector<Extended> point(
+  std::vector<Extended> point(
       state.begin(), state.begin() + static_cast<std::ptrdiff_t>(function.variables.size()));
+  const auto parameters = state.last(function.varied.size());
+  point.insert(point.end(), parameters.begin(), parameters.end());
   try {
     evaluate_function(function, point, Extended(time));
   } catch (const ExpressionTextError& error) {
@@ -161,9 +210,10 @@ std::vector<std::pair<std::string, std::string>> likely_mistakes(const SystemTex
   if (!text.is_hamiltonian()) return found;
   const OperationList& field = system.vector_field;
   const std::size_t n = system.degrees_of_freedom;
+  const std::uint64_t momenta = ((std::uint64_t{1} << n) - 1) << n;
   bool moves_by_momenta = false;
   for (std::size_t i = 0; i < n; ++i) {
-    moves_by_momenta = moves_by_momenta || field.dependencies(field.outputs()[i]) >> n != 0;
+    moves_by_momenta = moves_by_momenta || (field.dependencies(field.outputs()[i]) & momenta) != 0;
     if (!output_vanishes(field, i)) continue;
     found.emplace_back("hamiltonian", fmt::format("does not depend on {}, so that {} stands still",
                                                   text.momenta[i], text.coordinates[i]));

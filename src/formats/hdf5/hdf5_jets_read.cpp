@@ -122,14 +122,23 @@ StoredJet read_scene(const Reader& root) {
   stored.is_autonomous = !root.has_attribute("autonomous");
   stored.nominal_initial = root.numbers("nominal_initial");
   const std::size_t dimension = stored.nominal_initial.size();
-  const auto possible = possible_degrees_of_freedom(stored.model);
-  if (dimension % 2 != 0 ||
-      std::find(possible.begin(), possible.end(), dimension / 2) == possible.end()) {
+  if (root.has_attribute("state_parameters")) {
+    const int count = root.integer("state_parameters");
+    if (count < 1 || static_cast<std::size_t>(count) > most_state_parameters ||
+        !has_state_parameters(stored.model)) {
+      root.fail("state_parameters",
+                fmt::format("the attribute must be 1 to {}, of a model that has parameters, is {}",
+                            most_state_parameters, count));
+    }
+    stored.parameters = static_cast<std::size_t>(count);
+  }
+  const auto possible = possible_dimensions(stored.model, stored.parameters);
+  if (std::find(possible.begin(), possible.end(), dimension) == possible.end()) {
     root.fail("nominal_initial", fmt::format("the attribute has {} numbers, which is no state of "
                                              "the model",
                                              dimension));
   }
-  if (stored.model == SystemModel::own) {
+  if (stored.model == SystemModel::own || stored.parameters > 0) {
     stored.own_names = root.texts("state");
     if (stored.own_names.size() != dimension) {
       root.fail("state", fmt::format("the attribute must have {} names", dimension));

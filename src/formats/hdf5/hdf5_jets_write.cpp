@@ -91,6 +91,9 @@ void write_scene(const Writer& file, const StoredJet& jet, int order, const std:
   }
   if (!jet.is_autonomous) file.attribute(root, "autonomous", std::string("no"));
   file.attribute(root, "state", names_of(names));
+  if (jet.parameters > 0) {
+    file.attribute(root, "state_parameters", static_cast<int>(jet.parameters));
+  }
   file.attribute(root, "components", names_of(names, jet.components));
   file.attribute(root, "variables", names_of(names, jet.variables));
   file.attribute(root, "nominal_initial", jet.nominal_initial);

@@ -19,11 +19,11 @@ constexpr double least_square = 0.25;
 /// The sizes of all positions and of all momenta, by which the coordinates of each kind are scaled;
 /// 1 for a size that vanishes.
 template <class Real>
-std::array<Real, 2> sizes_of(const std::vector<Real>& state) {
+std::array<Real, 2> sizes_of(const std::vector<Real>& state, std::size_t degrees_of_freedom) {
   using std::sqrt;
   std::array<Real, 2> squares = {Real(0), Real(0)};
-  const std::size_t n = state.size() / 2;
-  for (std::size_t i = 0; i < state.size(); ++i) squares[i / n] += state[i] * state[i];
+  const std::size_t n = degrees_of_freedom;
+  for (std::size_t i = 0; i < 2 * n; ++i) squares[i / n] += state[i] * state[i];
   for (Real& x : squares) x = x > 0 ? Real(sqrt(x)) : Real(1);
   return squares;
 }
@@ -48,7 +48,8 @@ std::optional<RotationReduction<Real>> RotationReduction<Real>::of(
   const bool is_asked = problem.symmetry != FlowSymmetry::none && !problem.initial_jet;
   const bool has_jet = problem.duration != 0 && working_order(problem) >= 1;
   if (!is_asked || !has_jet || planes.empty()) return std::nullopt;
-  const std::array<Real, 2> sizes = sizes_of(problem.initial_state);
+  const std::array<Real, 2> sizes =
+      sizes_of(problem.initial_state, problem.system->degrees_of_freedom);
   std::vector<Real> scales;
   Real largest(0);
   std::size_t section = 0;

@@ -69,13 +69,15 @@ class System:
     def scene(self, start: Any, duration: float, *, order: int = 4,
               units: Mapping[str, float] | None = None,
               parameters: Mapping[str, Any] | None = None,
+              variables: Sequence[str] | None = None,
               tables: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """A scene of this system, for `run`, `trajectory` and others.
 
         start: (q, p) or the states as numbers, or a dict of them by name, in which what is left out
         is 0. duration: in the system's own time. order: of the jet. units: what lengths and times of
         1 mean, {"length_km": ..., "time_s": ...}; without it metres and seconds. parameters: other
-        values of some. tables: further tables of the scene, such as
+        values of some. variables: names of those to expand in, parameters among them if you like,
+        as in ["x", "px", "mu"]; by default coordinates and momenta, or the states. tables: further tables of the scene, such as
         {"generating_function": {"kinds": ["F1"]}}; entries of "jet" are added to its table.
         """
         system = self.tables()
@@ -103,6 +105,8 @@ class System:
                    if self.hamiltonian is not None else {"states": values})
         more = dict(tables or {})
         jet = {"order": order, "duration_canonical": float(duration), **more.pop("jet", {})}
+        if variables is not None:
+            jet["variables"] = list(_names(variables, "variables"))
         scene = {"schema": 1, "title": "A system of one's own", "system": system,
                  "nominal": nominal, "jet": jet, **more}
         if units is not None:

@@ -224,6 +224,9 @@ std::string summary_json(const PropagationResult& result) {
                {"separation_canonical", or_null(scene.separation)},
                {"reference", nullptr}};
   if (!scene.system.own_names.empty()) json["state_names"] = scene.system.own_names;
+  if (result.problem.system->parameters > 0) {
+    json["state_parameters"] = result.problem.system->parameters;
+  }
   if (scene.start_time != ClockTime::epoch()) {
     json["start_canonical"] = scene.start_time.in<double>();
   }

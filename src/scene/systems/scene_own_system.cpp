@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -56,6 +57,18 @@ void attempt_text(const TableReader& system, const std::function<void()>& part) 
   }
 }
 
+/// Makes the parameters that `jet.variables` names a part of the state, in that order.
+void add_state_parameters(const TableReader& root, SystemText& text) {
+  if (!root.has("jet") || !root.table("jet").has("variables")) return;
+  for (const std::string& name : root.table("jet").texts("variables")) {
+    const auto& known = text.state_parameters;
+    const auto is_it = [&](const NamedText& parameter) { return parameter.name == name; };
+    const bool is_new = std::any_of(text.parameters.begin(), text.parameters.end(), is_it) &&
+                        std::find(known.begin(), known.end(), name) == known.end();
+    if (is_new && known.size() < most_state_parameters) text.state_parameters.push_back(name);
+  }
+}
+
 void refuse_beside(const TableReader& system, std::string_view key, std::string_view other,
                    std::string_view right) {
   if (!system.has(key)) return;
@@ -69,22 +82,24 @@ std::vector<SceneKey> own_keys() {
   of_table.type = ValueForm::Type::table;
   const auto table_of = [&](std::string words) { return form::words(std::move(words), of_table); };
   const std::vector<std::string_view>& own = own_model();
-  return {{"coordinates", form::array(form::text()), absent::other("`states`"), "their names", own},
-          {"momenta", form::array(form::text()), absent::other("`states`"),
-           "their names, in the order of the coordinates", own},
-          {"hamiltonian", form::text(), absent::other("`vector_field`"),
-           "an expression, see [expressions](../expressions.md)", own},
-          {"parameters", table_of("table of numbers, or of expressions of them"),
-           absent::other("none"), "constants by name", own},
-          {"definitions", table_of("table of expressions"), absent::other("none"),
-           "expressions by name, in any order", own},
-          {"states", form::array(form::text()), absent::other("`coordinates` and `momenta`"),
-           "names of the variables of a vector field", own},
-          {"vector_field", table_of("table of expressions"), absent::other("`hamiltonian`"),
-           "of each state, its derivative by the time", own}};
+  return {
+      {"coordinates", form::array(form::text()), absent::other("`states`"), "their names", own},
+      {"momenta", form::array(form::text()), absent::other("`states`"),
+       "their names, in the order of the coordinates", own},
+      {"hamiltonian", form::text(), absent::other("`vector_field`"),
+       "an expression, see [expressions](../expressions.md)", own},
+      {"parameters", table_of("table of numbers, or of expressions of them"), absent::other("none"),
+       "constants by name; those that `jet.variables` names are variables", own},
+      {"definitions", table_of("table of expressions"), absent::other("none"),
+       "expressions by name, in any order", own},
+      {"states", form::array(form::text()), absent::other("`coordinates` and `momenta`"),
+       "names of the variables of a vector field", own},
+      {"vector_field", table_of("table of expressions"), absent::other("`hamiltonian`"),
+       "of each state, its derivative by the time", own}};
 }
 
-void read_own_system(const TableReader& system, SystemSettings& settings) {
+void read_own_system(const TableReader& root, SystemSettings& settings) {
+  const TableReader system = root.table("system");
   SystemText text;
   if (system.exactly_one_of({"hamiltonian", "vector_field"}) == "hamiltonian") {
     refuse_beside(system, "states", "a hamiltonian", "coordinates and momenta");
@@ -101,6 +116,8 @@ void read_own_system(const TableReader& system, SystemSettings& settings) {
   text.parameters = read_named_texts(system, "parameters");
   text.definitions = read_named_texts(system, "definitions");
   attempt_text(system, [&] { make_system("own", text); });
+  add_state_parameters(root, text);
+  if (!text.state_parameters.empty()) attempt_text(system, [&] { make_system("own", text); });
   settings.own_degrees_of_freedom = text.degrees_of_freedom();
   settings.own_names = text.variables();
   settings.own_text = std::move(text);

@@ -181,20 +181,13 @@ void read_parameters(const TableReader& jet, SystemSettings& settings) {
   const std::vector<std::string> variables = jet.texts("variables");
   for (std::size_t i = 0; i < variables.size(); ++i) {
     for (const EarthParameter& parameter : earth_parameters()) {
-      if (parameter.name != variables[i]) continue;
-      const bool is_of_light = parameter.name == radiation_parameter;
-      if (is_of_light ? !earth.radiation : !earth.atmosphere) {
-        jet.fail_element(
-            "variables", i,
-            fmt::format("of no effect without {}, got \"{}\", must be left out, or beside "
-                        "system.{}",
-                        is_of_light ? "light" : "air", parameter.name,
-                        is_of_light ? "radiation = true" : "atmosphere"));
-      }
-      if (!earth.parameters.empty()) {
+      const auto& known = earth.parameters;
+      const bool is_known = std::find(known.begin(), known.end(), parameter.name) != known.end();
+      if (parameter.name != variables[i] || is_known) continue;
+      if (const auto force = parameter.missing ? parameter.missing(settings) : std::nullopt) {
         jet.fail_element("variables", i,
-                         fmt::format("a second parameter, got {} after {}, must be one at most",
-                                     parameter.name, earth.parameters[0]));
+                         fmt::format("{}, got \"{}\", must be left out, or {}", force->what,
+                                     parameter.name, force->right));
       }
       add_parameter(settings, parameter.name);
     }

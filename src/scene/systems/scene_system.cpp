@@ -261,7 +261,7 @@ SystemSettings read_system(const TableReader& root) {
   if (settings.model == SystemModel::earth) {
     read_earth(root, settings);
   } else if (settings.model == SystemModel::own) {
-    read_own_system(system, settings);
+    read_own_system(root, settings);
   } else if (has_zonals && system.has("gravity_file")) {
     read_gravity_file(root, settings);
   } else if (has_zonals) {

@@ -33,6 +33,7 @@ Json own_json(const std::optional<SystemText>& text) {
     json["vector_field"] = texts_json(text->vector_field);
   }
   json["parameters"] = texts_json(text->parameters);
+  if (!text->state_parameters.empty()) json["state_parameters"] = text->state_parameters;
   json["definitions"] = texts_json(text->definitions);
   return json;
 }

@@ -31,9 +31,10 @@ double tolerance_count(const RunResult& run) {
 std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
   const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const FlowJet<Extended> jet = comparable_jet(scene, run);
+  const std::size_t n = degrees_of_freedom_of(scene.system);
   double size = 0;
-  for (std::size_t i = 0; i < scene.nominal.size(); ++i) {
-    const int momentum = i < scene.nominal.size() / 2 ? 0 : exponent;
+  for (std::size_t i = 0; i < 2 * n; ++i) {
+    const int momentum = i < n ? 0 : exponent;
     size = std::max(size, std::ldexp(std::abs(scene.nominal[i]), -momentum));
   }
   std::vector<double> changes;
@@ -50,8 +51,9 @@ std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
 }  // namespace
 
 FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
-  const std::size_t dimension = scene.nominal.size();
-  return in_momentum_unit(run.jet, kinds_of_variables(scene.variables, dimension, run.jet.size()),
+  const std::size_t of_model = degrees_of_freedom_of(scene.system);
+  const std::size_t of_jet = (run.jet.size() - (scene.nominal.size() - 2 * of_model)) / 2;
+  return in_momentum_unit(run.jet, kinds_of_variables(scene.variables, of_model, of_jet), of_jet,
                           natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal));
 }
 

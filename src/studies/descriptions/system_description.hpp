@@ -30,8 +30,9 @@ struct SystemParameter {
 /// The description of a system for scenes, lists and results.
 struct SystemDescription {
   SystemModel model;
-  std::string_view name;  ///< name in scenes and results
-  std::string_view help;  ///< description for people, with its keys
+  std::string_view name;              ///< name in scenes and results
+  std::string_view help;              ///< description for people, with its keys
+  bool has_state_parameters = false;  ///< whether states may end with parameters
   /// An orbit in space has three degrees of freedom and kilometres; the other systems have metres.
   bool is_orbit = false;
   /// The numbers of degrees of freedom that the system can have, ascending.

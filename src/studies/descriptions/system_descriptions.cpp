@@ -30,6 +30,7 @@ std::vector<SystemDescription> describe_systems() {
        .help = "the real Earth: a field of any degree and order that turns, Sun and Moon; an epoch "
                "and axes in [nominal]: gravity_degree, gravity_order, gravity_file, sun, moon, "
                "atmosphere or radiation beside a table [spacecraft], orientation_file",
+       .has_state_parameters = true,
        .is_orbit = true,
        .degrees_of_freedom = {3},
        .make = earth_system},
@@ -125,6 +126,7 @@ std::vector<SystemDescription> describe_systems() {
        .name = "own",
        .help = "written in the scene: coordinates, momenta and hamiltonian, or states and "
                "vector_field; parameters, definitions",
+       .has_state_parameters = true,
        .degrees_of_freedom = {1, 2, 3, 4, 5, 6, 7, 8},
        .degrees_of_freedom_of = [](const SystemSettings& s) { return s.own_degrees_of_freedom; },
        .make = [](const SystemSettings& s, double) -> DynamicalSystem {
@@ -162,6 +164,14 @@ std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model) {
   return description_of(model).degrees_of_freedom;
 }
 
+bool has_state_parameters(SystemModel model) { return description_of(model).has_state_parameters; }
+
+std::vector<std::size_t> possible_dimensions(SystemModel model, std::size_t parameters) {
+  std::vector<std::size_t> sizes = possible_degrees_of_freedom(model);
+  for (std::size_t& size : sizes) size = 2 * size + parameters;
+  return sizes;
+}
+
 std::vector<std::string_view> variable_names(SystemModel model, std::size_t degrees_of_freedom) {
   static constexpr std::string_view positions[] = {"q1", "q2", "q3", "q4", "q5", "q6", "q7", "q8"};
   static constexpr std::string_view momenta[] = {"p1", "p2", "p3", "p4", "p5", "p6", "p7", "p8"};
@@ -182,6 +192,12 @@ std::size_t degrees_of_freedom_of(const SystemSettings& settings) {
 std::vector<std::string_view> variable_names(const SystemSettings& settings) {
   if (!settings.own_names.empty()) return {settings.own_names.begin(), settings.own_names.end()};
   return variable_names(settings.model, degrees_of_freedom_of(settings));
+}
+
+const std::vector<std::string>& state_parameters(const SystemSettings& settings) {
+  static const std::vector<std::string> none;
+  if (settings.earth) return settings.earth->parameters;
+  return settings.own_text ? settings.own_text->state_parameters : none;
 }
 
 }  // namespace hamjet

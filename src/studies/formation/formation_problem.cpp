@@ -68,28 +68,22 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
 }
 
 Scene with_deputy_parameters(Scene scene) {
-  const std::vector<Difference> differences = differences_of(scene);
-  if (differences.empty()) return scene;
-  if (differences.size() > 1) {
-    throw Error(ErrorKind::scene,
-                fmt::format("deputy.spacecraft: differs from the chief's in {} and {}, must differ "
-                            "in one of them: jets have one parameter",
-                            differences[0].parameter, differences[1].parameter));
+  if (!scene.system.earth) return scene;
+  EarthSettings& earth = *scene.system.earth;
+  std::vector<std::string> wanted;
+  for (const Difference& one : differences_of(scene)) wanted.emplace_back(one.parameter);
+  if (earth.parameters == wanted) return scene;
+  // Deputies have the chief's values of the other parameters, in which nothing need be expanded.
+  constexpr std::size_t n = 6;
+  earth.parameters.clear();
+  scene.system.own_names.clear();
+  std::erase_if(scene.variables, [](std::size_t v) { return v >= n; });
+  scene.nominal.resize(n);
+  for (const std::string& name : wanted) add_parameter(scene.system, name);
+  for (const double value : parameter_values(scene.system)) {
+    scene.variables.push_back(scene.nominal.size());
+    scene.nominal.push_back(value);
   }
-  const Difference& difference = differences[0];
-  const EarthSettings& earth = *scene.system.earth;
-  const auto place =
-      std::find(earth.parameters.begin(), earth.parameters.end(), difference.parameter);
-  if (place != earth.parameters.end()) return scene;
-  if (!earth.parameters.empty()) {
-    throw Error(ErrorKind::scene,
-                fmt::format("deputy.spacecraft: differs from the chief's in {}, got jet.variables "
-                            "with {}, must be without it: jets have one parameter",
-                            difference.parameter, earth.parameters[0]));
-  }
-  add_parameter(scene.system, difference.parameter);
-  scene.variables.push_back(scene.nominal.size());
-  scene.nominal.push_back(difference.chief);
   scene.coordinates = {};
   return scene;
 }

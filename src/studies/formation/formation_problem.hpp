@@ -15,8 +15,8 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
 /// are expanded in a parameter: this study has polynomials about one kind of spacecraft.
 void require_one_spacecraft(const Scene& scene, std::string_view table);
 
-/// The scene whose states end with the parameters in which the deputy differs from the chief, and
-/// whose jets are expanded in them; the scene itself where there are none.
+/// The scene whose states end with the parameters in which the deputy differs from the chief, those
+/// alone, and whose jets are expanded in them.
 Scene with_deputy_parameters(Scene scene);
 
 /// The deputy's parameters less the chief's, for a scene of with_deputy_parameters.

@@ -40,6 +40,16 @@ bool is_orbit(SystemModel model);
 /// for the chain fermi-pasta-ulam, whose length the scene chooses.
 std::vector<std::size_t> possible_degrees_of_freedom(SystemModel model);
 
+/// Whether the states of a model may end with parameters, in which jets are expanded, and so have
+/// names of their own.
+bool has_state_parameters(SystemModel model);
+
+/// The most parameters that a state can end with: inputs of operation lists are bits of 64.
+inline constexpr std::size_t most_state_parameters = 40;
+
+/// The possible lengths of a model's states that end with so many parameters, ascending.
+std::vector<std::size_t> possible_dimensions(SystemModel model, std::size_t parameters);
+
 /// Names of the variables (q, p) of a model whose scene does not name them, in the order of the
 /// state: x, y, z, px, py, pz for an orbit; q, p for one degree of freedom; else q1, q2, ..., p1,
 /// p2, .... `degrees_of_freedom` must be possible.
@@ -63,10 +73,10 @@ struct SystemSettings {
   double mu_km3_s2 = 0;  ///< earth, zonal-gravity, kepler: gravitational parameter
   /// earth, zonal-gravity: the reference radius of the coefficients; 0 if there are none
   double radius_km = 0;
-  /// zonal-gravity: 0 for a coefficient that the scene does not have. earth: those of its field, for
-  /// what is told of mean motions.
+  /// zonal-gravity: 0 for a coefficient that the scene does not have. earth: those of its field,
+  /// for what is told of mean motions.
   ZonalCoefficients J;
-  double mass_kg = 1;    ///< harmonic-oscillator, oscillator-pair, spring-pendulum
+  double mass_kg = 1;                   ///< harmonic-oscillator, oscillator-pair, spring-pendulum
   double stiffness_N_per_m = 1;         ///< models with a mass; for a pair, of the first oscillator
   double second_stiffness_N_per_m = 1;  ///< oscillator-pair: stiffness of the second oscillator
   double length_m = 1;                  ///< spring-pendulum: length of the spring at rest
@@ -77,13 +87,14 @@ struct SystemSettings {
   std::optional<GravityFile> gravity_file;
   std::size_t own_degrees_of_freedom = 1;  ///< own: 1 to 8
   std::optional<EarthSettings> earth;      ///< earth
-  std::vector<std::string> own_names;      ///< own: of (q, p); earth: with parameters; else empty
-  std::optional<SystemText> own_text;      ///< own: as the scene writes it
+  /// own: of (q, p, c) with the parameters c; earth: likewise if it has some; else empty
+  std::vector<std::string> own_names;
+  std::optional<SystemText> own_text;  ///< own: as the scene writes it
 };
 
 HAMJET_FIELDS(NamedText, name, text)
-HAMJET_FIELDS(SystemText, coordinates, momenta, states, parameters, definitions, hamiltonian,
-              vector_field)
+HAMJET_FIELDS(SystemText, coordinates, momenta, states, parameters, state_parameters, definitions,
+              hamiltonian, vector_field)
 HAMJET_FIELDS(GravityFile, file, model_name, tide_system, epoch, origin_offset_m)
 HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness_N_per_m,
               second_stiffness_N_per_m, length_m, gravity_m_s2, omega_rad_per_s, pairs,
@@ -92,7 +103,10 @@ HAMJET_FIELDS(SystemSettings, model, mu_km3_s2, radius_km, J, mass_kg, stiffness
 /// The number of degrees of freedom of a system.
 std::size_t degrees_of_freedom_of(const SystemSettings& settings);
 
-/// Names of a system's variables (q, p), in the order of the state.
+/// Names of a system's variables (q, p, c), in the order of the state.
 std::vector<std::string_view> variable_names(const SystemSettings& settings);
+
+/// Names of the parameters c with which a system's states end.
+const std::vector<std::string>& state_parameters(const SystemSettings& settings);
 
 }  // namespace hamjet
