@@ -53,7 +53,7 @@ std::vector<std::vector<std::string>> member_rows(const PeriodicStudy& study) {
   for (std::size_t i = 0; i < index_count(study); ++i) {
     head.push_back(fmt::format("index {}", i + 1));
   }
-  head.insert(head.end(), {"closing", "marks"});
+  head.emplace_back("closing");
   for (std::size_t k = 0; k < study.family.members.size(); ++k) {
     const FamilyMember& member = study.family.members[k];
     std::vector<std::string>& row = rows.emplace_back(1, fmt::format("{}", k + 1));
@@ -66,9 +66,18 @@ std::vector<std::vector<std::string>> member_rows(const PeriodicStudy& study) {
     }
     for (const Complex& index : member.orbit.monodromy.indices) row.push_back(index_text(index));
     row.push_back(fmt::format("{:.1e}", member.orbit.closing));
-    row.push_back(member.mark);
   }
   return rows;
+}
+
+/// A line for each place with marks.
+std::vector<std::string> mark_lines(const PeriodicStudy& study) {
+  std::vector<std::string> lines;
+  for (std::size_t k = 1; k < study.family.members.size(); ++k) {
+    const std::string& mark = study.family.members[k].mark;
+    if (!mark.empty()) lines.push_back(fmt::format("between {} and {}: {}", k, k + 1, mark));
+  }
+  return lines;
 }
 
 Chart orbit_chart(const PeriodicStudy& study) {
@@ -264,6 +273,7 @@ StudyReport periodic_report(const PeriodicStudy& study, const ReportOrigin& orig
   report.drawing_problem = drawer.problem();
   report.table = fmt::format("{}\n{}\n\n", study.scene.title, periodic_verdict(study)) +
                  aligned_table(member_rows(study));
+  for (const std::string& line : mark_lines(study)) report.table += line + "\n";
   return report;
 }
 

@@ -60,17 +60,12 @@ bool Monodromy::is_stable() const {
 }
 
 Monodromy monodromy_of(const DynamicalSystem& system, const Vector<double>& start,
-                       Matrix<double> matrix) {
+                       Matrix<double> matrix, const Vector<double>& sizes) {
   Monodromy result;
   const Eigen::Index dimension = start.size();
   const Eigen::Index n = dimension / 2;
   const EnergyGradient at = energy_gradient(system, start);
   // One unit for positions and one for momenta leave the matrix symplectic.
-  const double position = start.head(n).norm() > 0 ? start.head(n).norm() : 1;
-  const double momentum = start.tail(n).norm() > 0 ? start.tail(n).norm() : 1;
-  Vector<double> sizes(dimension);
-  sizes.head(n).setConstant(position);
-  sizes.tail(n).setConstant(momentum);
   Matrix<double> turn = matrix;
   for (Eigen::Index i = 0; i < dimension; ++i) {
     turn.row(i) /= sizes[i];

@@ -95,9 +95,10 @@ EnergyGradient energy_gradient(const DynamicalSystem& system, const Vector<doubl
 OrbitNodes flown_nodes(const PeriodicProblem& problem, const Vector<double>& start, double period,
                        double parameter);
 
-/// The multipliers of a turn from `start`, whose linear part is `matrix`.
+/// The multipliers of a turn from `start`, whose linear part is `matrix`. `sizes` are the units of
+/// (q, p) in which defects are told: one of all positions, and one of all momenta.
 Monodromy monodromy_of(const DynamicalSystem& system, const Vector<double>& start,
-                       Matrix<double> matrix);
+                       Matrix<double> matrix, const Vector<double>& sizes);
 
 /// The periodic orbit near a guess at which the problem's quantity is held; of an orbit that is a
 /// shorter one several times round, up to six, the shorter one. Throws Error(numerical) where the

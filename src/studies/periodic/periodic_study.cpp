@@ -75,7 +75,9 @@ PeriodicStudy::Path path_of(const Scene& scene, const PeriodicProblem& problem,
   const bool is_plane = start.size() == 2;
   PeriodicStudy::Path path{member, {}};
   for (int k = 0; k <= parts; ++k) {
-    const std::vector<double> state = nominal_of(trajectory.at(orbit.nodes.period * k / parts));
+    // The last quotient may round beyond the end.
+    const double time = k == parts ? orbit.nodes.period : orbit.nodes.period * k / parts;
+    const std::vector<double> state = nominal_of(trajectory.at(time));
     path.points.emplace_back(state[0] * told.length,
                              state[1] * (is_plane ? told.momentum : told.length));
   }

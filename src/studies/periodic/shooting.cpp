@@ -99,17 +99,44 @@ Shooting::Shooting(const PeriodicProblem& problem, const OrbitNodes& near) : pro
   const Eigen::Index n = near.states.front().size() / 2;
   space_ = SeriesSpace::create(static_cast<std::size_t>(2 * n), 1);
   scale_.resize(2 * n + (problem.has_parameter ? 2 : 1));
+  // Where arcs begin, all momenta may be 0, as after each half of a swing: sizes are those on the
+  // way.
   double position = 0;
   double momentum = 0;
-  for (const Vector<double>& state : near.states) {
-    position = std::max(position, state.head(n).norm());
-    momentum = std::max(momentum, state.tail(n).norm());
+  constexpr long most = 20;
+  constexpr long least = 200;
+  const SharedSystem system = problem.system(near.parameter);
+  for (const Vector<double>& start : near.states) {
+    IntegrationStatistics statistics;
+    integrate_gauss<double>(
+        trajectory_problem(system, numbers_of(start), ClockTime::epoch(),
+                           near.period / static_cast<double>(near.states.size())),
+        problem.gauss, statistics, [&](const double&, const FlowJet<double>& jet) {
+          const Vector<double> state = vector_of(nominal_of(jet));
+          position = std::max(position, state.head(n).norm());
+          momentum = std::max(momentum, state.tail(n).norm());
+        });
+    most_steps_ = std::max(most_steps_, least + most * statistics.steps);
   }
   scale_.head(n).setConstant(position > 0 ? position : 1);
   scale_.segment(n, n).setConstant(momentum > 0 ? momentum : 1);
   scale_[2 * n] = std::abs(near.period);
   if (problem.has_parameter) scale_[2 * n + 1] = near.parameter != 0 ? std::abs(near.parameter) : 1;
   set_phase(near);
+}
+
+void Shooting::require_few_steps(const SharedSystem& system, const Vector<double>& start,
+                                 double time) const {
+  long steps = 0;
+  IntegrationStatistics statistics;
+  integrate_gauss<double>(
+      trajectory_problem(system, numbers_of(start), ClockTime::epoch(), time), problem_->gauss,
+      statistics, [&](const double& at, const FlowJet<double>&) {
+        if (++steps <= most_steps_) return;
+        throw Error(ErrorKind::numerical, fmt::format("periodic: an arc takes more than {} steps "
+                                                      "until {:.6g}",
+                                                      most_steps_, at));
+      });
 }
 
 void Shooting::set_phase(const OrbitNodes& nodes) {
@@ -139,6 +166,7 @@ LinearShooting Shooting::linearize(const OrbitNodes& nodes) const {
   for (std::size_t i = 0; i < arcs; ++i) {
     result.of_states.push_back(of_state);
     result.offsets.push_back(offset);
+    require_few_steps(system, nodes.states[i], time);
     IntegrationStatistics statistics;
     const FlowJet<double> jet = integrate_gauss(
         linear_problem(system, space_, numbers_of(nodes.states[i]), ClockTime::epoch(), time),
@@ -299,9 +327,9 @@ Shooting::Solution Shooting::solve(const OrbitNodes& guess, const Equations& fur
         if (error.kind() != ErrorKind::numerical) throw;
       }
     }
-    // Convergence is quadratic: behind such a step rounding alone is left. Steps that no longer
-    // shrink are rounding too.
-    const bool is_last = length <= 3e-9 || (length <= 1e-7 && length > 0.5 * previous);
+    // Convergence is quadratic. Steps that no longer shrink are rounding.
+    const bool is_last =
+        (length <= 3e-9 && size <= 1e-13) || (length <= 1e-7 && length > 0.5 * previous);
     if (size <= small && is_last) return at;
     previous = length;
   }
@@ -343,7 +371,7 @@ PeriodicOrbit orbit_of_solution(const PeriodicProblem& problem, Shooting::Soluti
     turn.row(i) *= scale[i];
     turn.col(i) /= scale[i];
   }
-  orbit.monodromy = monodromy_of(*system, orbit.start(), std::move(turn));
+  orbit.monodromy = monodromy_of(*system, orbit.start(), std::move(turn), scale.head(dimension));
   return orbit;
 }
 

@@ -60,7 +60,13 @@ class Shooting {
 
  private:
   const PeriodicProblem* problem_;
+  /// Flies an arc alone. Throws Error(numerical) where it takes far more steps than arcs near by:
+  /// a trial that comes close to a centre of attraction would take them without end.
+  void require_few_steps(const SharedSystem& system, const Vector<double>& start,
+                         double time) const;
+
   SpacePointer space_;
+  long most_steps_ = 0;
   Vector<double> scale_;
   Vector<double> phase_state_;
   Vector<double> phase_direction_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <cmath>
 #include <filesystem>
@@ -17,13 +18,12 @@
 namespace hamjet {
 namespace {
 
-const std::string pendulum = R"(schema = 1
+const std::string closed_pendulum = R"T(schema = 1
 title = "pendulum"
-system = { model = "own", coordinates = ["theta"], momenta = ["L"], hamiltonian = "L^2/2 - cos(theta)"
-}
+system = { model = "own", coordinates = ["theta"], momenta = ["L"], hamiltonian = "L^2/2 - cos(theta)" }
 nominal = { coordinates = [1.5], momenta = [0] }
 jet = { order = 1, duration_canonical = 7 }
-)";
+)T";
 
 /// Uncoupled: the motion in x and the oscillation across it do not know each other.
 std::string two_oscillators(const std::string& periodic) {
@@ -44,7 +44,7 @@ duration_canonical = 6
 )" + periodic;
 }
 
-PeriodicStudy studied(const std::string& text) {
+PeriodicStudy closed_study(const std::string& text) {
   return study_periodic(io::parse_scene(text, "file.toml"));
 }
 
@@ -59,8 +59,8 @@ double duffing_period(double amplitude, double k) {
 }
 
 TEST(PeriodicStudy, AFamilyOfPendulumsHasThePeriodsOfEllipticIntegrals) {
-  const PeriodicStudy study =
-      studied(pendulum + "[periodic]\nhold = \"theta\"\nfamily = { along = \"theta\", to = 3 }\n");
+  const PeriodicStudy study = closed_study(
+      closed_pendulum + "[periodic]\nhold = \"theta\"\nfamily = { along = \"theta\", to = 3 }\n");
   EXPECT_EQ(study.family.end, "");
   EXPECT_GE(study.family.members.size(), 15U);
   EXPECT_NEAR(study.family.members.front().along, 1.5, 1e-12);
@@ -78,8 +78,8 @@ TEST(PeriodicStudy, AFamilyOfPendulumsHasThePeriodsOfEllipticIntegrals) {
 
 TEST(PeriodicStudy, TheIndexOfATransverseOscillationIsACosine) {
   for (const char* const arcs : {"1", "7"}) {
-    const PeriodicStudy study =
-        studied(two_oscillators(std::string("[periodic]\nhold = \"x\"\narcs = ") + arcs + "\n"));
+    const PeriodicStudy study = closed_study(
+        two_oscillators(std::string("[periodic]\nhold = \"x\"\narcs = ") + arcs + "\n"));
     const PeriodicOrbit& orbit = study.family.members.at(0).orbit;
     const double period = duffing_period(0.5, 0.5);
     EXPECT_NEAR(orbit.nodes.period, period, 1e-11);
@@ -91,7 +91,7 @@ TEST(PeriodicStudy, TheIndexOfATransverseOscillationIsACosine) {
 }
 
 TEST(PeriodicStudy, AFamilyAlongAParameterHoldsTheRest) {
-  const PeriodicStudy study = studied(
+  const PeriodicStudy study = closed_study(
       two_oscillators("[periodic]\nhold = \"x\"\nfamily = { along = \"parameters.k\", to = 2 }\n"));
   EXPECT_EQ(study.family.end, "");
   EXPECT_NEAR(study.family.members.front().along, 0.5, 1e-12);
@@ -104,22 +104,61 @@ TEST(PeriodicStudy, AFamilyAlongAParameterHoldsTheRest) {
   }
 }
 
-// M. Brack, Bifurcation cascades and self-similarity of periodic orbits with analytical scaling
-// constants, Foundations of Physics 31 (2001) 209: the straight-line orbit first loses its
-// stability at 0.8117 of the saddle's energy, 1/6.
-TEST(PeriodicStudy, TheStraightOrbitOfHenonAndHeilesBifurcatesWherePublished) {
+/// The index of the orbit of Henon and Heiles on its axis, by RK4 in long double: the motion across
+/// is x'' = -(1 + 2 y) x beside y'' = -y + y^2, and the index half the trace of its turn.
+long double index_across_the_axis(long double y, long double vy, long double period) {
+  using Row = std::array<long double, 6>;
+  const auto slope = [](const Row& s) {
+    const long double k = -(1 + 2 * s[0]);
+    return Row{s[1], -s[0] + s[0] * s[0], s[3], k * s[2], s[5], k * s[4]};
+  };
+  Row s{y, vy, 1, 0, 0, 1};
+  constexpr int steps = 4000;
+  const long double h = period / steps;
+  for (int n = 0; n < steps; ++n) {
+    const auto moved = [&](const Row& f, long double part) {
+      Row result = s;
+      for (std::size_t i = 0; i < s.size(); ++i) result[i] += part * h * f[i];
+      return result;
+    };
+    const Row f1 = slope(s);
+    const Row f2 = slope(moved(f1, 0.5L));
+    const Row f3 = slope(moved(f2, 0.5L));
+    const Row f4 = slope(moved(f3, 1));
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      s[i] += h / 6 * (f1[i] + 2 * f2[i] + 2 * f3[i] + f4[i]);
+    }
+  }
+  return (s[2] + s[5]) / 2;
+}
+
+// The straight orbit loses its stability where its index passes -1, at 0.8117 of the energy of the
+// saddle, 1/6.
+TEST(PeriodicStudy, TheStraightOrbitOfHenonAndHeilesHasItsIndexAndItsBifurcation) {
   const std::filesystem::path own = std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes/own";
   const PeriodicStudy study = study_periodic(
       io::read_scene(own / "henon-heiles.toml",
                      {{"periodic", "{family = {along = \"energy\", to = 0.14, step = 0.002}}"}}));
   EXPECT_EQ(study.family.end, "");
-  std::string marks;
-  for (const FamilyMember& member : study.family.members) marks += member.mark;
-  const std::string head = "index 1 passes +1 near ";
-  const auto place = marks.find(head);
-  ASSERT_NE(place, std::string::npos) << marks;
-  EXPECT_NEAR(6 * std::stod(marks.substr(place + head.size())), 0.8117, 3e-4);
-  EXPECT_TRUE(study.family.members.front().orbit.monodromy.is_stable());
+  int marks = 0;
+  double before = 0;
+  for (const FamilyMember& member : study.family.members) {
+    const Vector<double>& start = member.orbit.start();
+    const auto index =
+        static_cast<double>(index_across_the_axis(start[1], start[3], member.orbit.nodes.period));
+    EXPECT_NEAR(member.orbit.monodromy.indices.at(0).real(), index, 1e-9) << member.along;
+    EXPECT_EQ(member.orbit.monodromy.is_stable(), std::abs(index) < 1) << member.along;
+    if (before > -1 && index < -1) {
+      ++marks;
+      const std::string head = "index 1 passes -1 near ";
+      ASSERT_EQ(member.mark.find(head), 0U) << member.mark;
+      EXPECT_NEAR(6 * std::stod(member.mark.substr(head.size())), 0.8117, 3e-4);
+    } else {
+      EXPECT_EQ(member.mark, "") << member.along;
+    }
+    before = index;
+  }
+  EXPECT_EQ(marks, 1);
 }
 
 /// The period of a particle that gyrates in the equator of a dipole. With u = 1/rho - 1/rho^2 =
@@ -149,32 +188,35 @@ TEST(PeriodicStudy, AParticleGyratesInTheEquatorOfADipole) {
 
 TEST(PeriodicStudy, AShorterPeriodIsFoundWhereTheGuessIsTwoTurns) {
   const PeriodicStudy study =
-      studied(pendulum + "[periodic]\nhold = \"theta\"\nperiod_canonical = 14.5\n");
+      closed_study(closed_pendulum + "[periodic]\nhold = \"theta\"\nperiod_canonical = 14.5\n");
   EXPECT_NEAR(study.family.members.at(0).orbit.nodes.period, pendulum_period(1.5), 1e-11);
 }
 
 TEST(PeriodicStudy, SaysThatThereIsNoOrbit) {
   const auto refused = [](const std::string& text, const std::vector<std::string>& words) {
-    test::expect_error([&] { studied(text); }, ErrorKind::numerical, words, text);
+    test::expect_error([&] { closed_study(text); }, ErrorKind::numerical, words, text);
   };
-  const auto changed = [](std::string text, const std::string& from, const std::string& to) {
+  const auto with_text = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
   };
-  refused(changed(pendulum, "- cos(theta)", "+ theta") + "[periodic]\n", {"periodic: no orbit"});
-  refused(changed(pendulum, "[1.5]", "[0]") + "[periodic]\n", {"periodic: ", "equilibrium"});
+  refused(with_text(closed_pendulum, "- cos(theta)", "+ theta") + "[periodic]\n",
+          {"periodic: no orbit"});
+  refused(with_text(closed_pendulum, "[1.5]", "[0]") + "[periodic]\n",
+          {"periodic: ", "equilibrium"});
 }
 
 // A family that cannot be followed to its end has its members, and says why it ends.
 TEST(PeriodicStudy, AFamilyThatEndsBeforeItsEndSaysSo) {
-  const PeriodicStudy few = studied(
-      pendulum +
+  const PeriodicStudy few = closed_study(
+      closed_pendulum +
       "[periodic]\nhold = \"theta\"\nfamily = { along = \"theta\", to = 3, members = 4 }\n");
   EXPECT_EQ(few.family.members.size(), 4U);
   EXPECT_NE(few.family.end.find("4 members do not reach 3"), std::string::npos) << few.family.end;
   EXPECT_FALSE(few.family.is_failure);
   // At theta = pi the period has no end.
-  const PeriodicStudy beyond = studied(
-      pendulum + "[periodic]\nhold = \"theta\"\nfamily = { along = \"energy\", to = 1.5 }\n");
+  const PeriodicStudy beyond =
+      closed_study(closed_pendulum +
+                   "[periodic]\nhold = \"theta\"\nfamily = { along = \"energy\", to = 1.5 }\n");
   EXPECT_NE(beyond.family.end, "");
   EXPECT_GT(beyond.family.members.size(), 4U);
 }
