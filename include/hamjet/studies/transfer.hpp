@@ -57,7 +57,7 @@ struct TransferPoint {
   std::optional<double> hamilton_jacobi_residual;
   bool exceeds_impulse = false;  ///< one of the two changes is larger than the scene allows
   /// If the scene has an ellipsoid to keep out of, the least of |(R/a, T/b, N/c)| along the way of
-  /// the best answer; it is 1 on the ellipsoid.
+  /// the best answer; it is 1 on the ellipsoid, and 0 of a way that cannot be followed.
   std::optional<double> keep_out_ratio;
   /// The least distance from the centre along that way, in canonical units; absent if the scene's
   /// check `surface` is off or the model has no radius.
@@ -124,8 +124,8 @@ struct TransferResult {
   /// Singular times of all 64 kinds, in order of kind and time.
   std::vector<SingularTime> singular_times;
   KindConditions conditions;
-  /// Rounding floor of the flown positions in metres: rounding grown with the linear flow to the
-  /// last time. Misses below this mean nothing.
+  /// Rounding floor of the flown positions in metres: rounding grown with the linear flow, the
+  /// largest of the transfer times. Misses below this mean nothing.
   double flight_floor_m = 0;
   /// Distance in metres, at the last time, of the jet's nominal from the flown chief. Ends are
   /// relative to the flown chief, so that an inaccurate integrator shows in the misses.

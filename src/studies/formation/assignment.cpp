@@ -181,9 +181,7 @@ class AssignmentStudy {
     if (progress_) {
       progress_("proofs", static_cast<double>(index) / static_cast<double>(times.size()));
     }
-    if (index + 1 == times.size()) {
-      result_.flight_floor_m = points_.flight_floor_m(jet);
-    }
+    result_.flight_floor_m = std::max(result_.flight_floor_m, points_.flight_floor_m(jet));
     std::optional<ChosenKind> chosen;
     for (AssignedTransfer& assigned : result_.transfers) {
       if (result_.costs[assigned.deputy][assigned.slot].time != index) continue;

@@ -93,8 +93,9 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
       progress("transfers",
                static_cast<double>(index) / static_cast<double>(settings.times.size()));
     }
+    // The flow grows and shrinks along an orbit; it is largest at a pericentre.
+    result.flight_floor_m = std::max(result.flight_floor_m, points.flight_floor_m(jet));
     if (index + 1 == settings.times.size()) {
-      result.flight_floor_m = points.flight_floor_m(jet);
       result.chief_error_m = points.chief_error_m(time, jet);
     }
     const ChosenKind chosen = points.choose_kind(time, jet, {ends});
