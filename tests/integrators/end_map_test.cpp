@@ -97,20 +97,20 @@ class OneStep {
 
 /// The values are sums of a few dozen products of factors of about 1, and the roundings are at most
 /// as many.
-constexpr double allowed = 64 * std::numeric_limits<double>::epsilon();
+constexpr double allowed_slopes = 64 * std::numeric_limits<double>::epsilon();
 
 TEST(EndMap, IsTheStepByTheSlopes) {
   for (const DynamicalSystem& system : {oblate_centre(), coupled_pendulums()}) {
     for (const int stages : {1, 2, 3, 5, 8}) {
       OneStep<8> step(system, stages, 0.3);
-      EXPECT_LT(step.difference(Response::for_end_map), allowed)
+      EXPECT_LT(step.difference(Response::for_end_map), allowed_slopes)
           << system.name << ", " << stages << " stages";
       EXPECT_TRUE(step.follows_from_base());
     }
     // Some lanes have no stage of their own.
     for (const int stages : {9, 14, 16}) {
       OneStep<16> step(system, stages, -0.3);
-      EXPECT_LT(step.difference(Response::for_end_map), allowed)
+      EXPECT_LT(step.difference(Response::for_end_map), allowed_slopes)
           << system.name << ", " << stages << " stages";
       EXPECT_TRUE(step.follows_from_base());
     }
@@ -120,7 +120,7 @@ TEST(EndMap, IsTheStepByTheSlopes) {
 TEST(EndMap, IsTheStepByTheSlopesWhereTheDiagonalDoesNotDominate) {
   for (const int stages : {2, 5, 8}) {
     OneStep<8> step(coupled_pendulums(), stages, 1.5);
-    EXPECT_LT(step.difference(Response::for_end_map), allowed) << stages << " stages";
+    EXPECT_LT(step.difference(Response::for_end_map), allowed_slopes) << stages << " stages";
     EXPECT_FALSE(step.follows_from_base());
   }
 }
@@ -139,7 +139,7 @@ DynamicalSystem scaled_pendulum() {
 TEST(EndMap, IsTheStepByTheSlopesWhereForcesAreNoGradient) {
   for (const int stages : {2, 5, 8}) {
     OneStep<8> step(scaled_pendulum(), stages, 0.3);
-    EXPECT_LT(step.difference(Response::for_end_map), allowed) << stages << " stages";
+    EXPECT_LT(step.difference(Response::for_end_map), allowed_slopes) << stages << " stages";
     EXPECT_FALSE(step.follows_from_base());
   }
 }

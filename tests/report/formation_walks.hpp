@@ -8,6 +8,7 @@
 
 #include "../../src/report/formation/assignment_tables.hpp"
 #include "../../src/report/formation/deputy_motion_report.hpp"
+#include "../../src/report/formation/thrust_view.hpp"
 #include "../../src/report/formation/transfer_tables.hpp"
 #include "../../src/report/formation/transfer_view.hpp"
 #include "../../src/report/formation/validity_table.hpp"

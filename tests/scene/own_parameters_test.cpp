@@ -16,7 +16,7 @@ namespace {
 using test::Numbers;
 
 constexpr double allowed = 1e-9;
-constexpr double h = 2e-5;  // of the line
+constexpr double line_step = 2e-5;  // of the line
 
 const std::string restricted_problem = R"T(schema = 1
 [system]
@@ -75,7 +75,7 @@ TEST(OwnParameters, DerivativesByTheMassRatioAreThoseOfFlights) {
           return test::extrapolated_flight(restricted_rates, moved(scene.nominal, direction, s), 0,
                                            scene.duration, 20);
         },
-        h);
+        line_step);
     EXPECT_LT(test::largest_difference(run.jet, direction, right, 4), allowed);
   }
   // The parameter stays what it was.
@@ -85,7 +85,7 @@ TEST(OwnParameters, DerivativesByTheMassRatioAreThoseOfFlights) {
   }
 }
 
-const std::string pendulum = R"T(schema = 1
+const std::string swinging = R"T(schema = 1
 [system]
 model = "own"
 states = ["angle", "rate"]
@@ -106,7 +106,7 @@ Numbers pendulum_rates(const Numbers& z, Extended) {
 // A constant that is made of a parameter follows it; the order of parameters is that of the scene's
 // variables.
 TEST(OwnParameters, LengthAndFrictionOfAPendulum) {
-  const Scene scene = parse_scene(pendulum, "file.toml");
+  const Scene scene = parse_scene(swinging, "file.toml");
   const RunResult run = only_run(scene);
   EXPECT_EQ(scene.nominal, (std::vector<double>{1.1, 0.3, 0, 0, 0.1, 0.25}));
   const std::vector<double> start = {1.1, 0.3, 0.1, 0.25};
@@ -116,7 +116,7 @@ TEST(OwnParameters, LengthAndFrictionOfAPendulum) {
         return test::extrapolated_flight(pendulum_rates, moved(start, direction, s), 0,
                                          scene.duration, 20);
       },
-      h);
+      line_step);
   EXPECT_LT(test::largest_difference(run.jet, direction, right, 2), allowed);
 }
 

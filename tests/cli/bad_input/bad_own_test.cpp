@@ -9,15 +9,14 @@ namespace {
 
 using std::string;
 
-const string own_scene = R"(schema = 1
+const string own_scene = R"T(schema = 1
 title = "own"
 [system]
 model = "own"
 coordinates = ["x", "y"]
 momenta = ["px", "py"]
 parameters = { mu = 0.01, k = "2*mu" }
-definitions = { r = "sqrt(x^2 + y^2)"
-}
+definitions = { r = "sqrt(x^2 + y^2)" }
 hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x"
 [nominal]
 coordinates = [1, 0]
@@ -25,8 +24,8 @@ momenta = [0, 1]
 [jet]
 order = 2
 duration_canonical = 1
-)";
-const string hamiltonian = R"(hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x")";
+)T";
+const string hamiltonian = R"T(hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x")T";
 
 using BadOwn = RefusedScene;
 
