@@ -34,7 +34,7 @@ STUDIES = {
     "validity": lambda: hamjet.validity(VALIDITY),
     "motion": lambda: hamjet.motion(CIRCLES),
     "transfers": lambda: hamjet.transfer(TRANSFER, overrides={
-        "transfer.count": 3, "transfer.impulses": "optimal",
+        "transfer.count": 3, "transfer.impulses": "optimal", "transfer.thrust": "energy-optimal",
         "transfer.budget_m_s": 20, "transfer.waypoint": [
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
     "assignment": lambda: hamjet.assign(

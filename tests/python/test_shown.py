@@ -30,6 +30,8 @@ def objects():
                           overrides=["transfer.count=3"]),
             hamjet.poincare(BOUNDED, overrides=SHORT), hamjet.bounded(BOUNDED, overrides=SHORT),
             hamjet.event(BOUNDED, overrides=[*SHORT, "event.surface='apsis'"]),
+            hamjet.periodic(SOURCE / "data" / "scenes" / "own" / "earth-moon-halo-l2.toml",
+                            overrides=["periodic.family.to=1.6"]),
             hamjet.uncertainty(UNCERTAINTY),
             hamjet.system("p^2/2 - g*cos(q)", coordinates="q", parameters={"g": 9.81}),
             hamjet.collision_probability([[7e6, 0, 0, 0, 7546, 0], [7e6, 0, 0, 0, 6622, 3618]],

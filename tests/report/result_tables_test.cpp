@@ -34,6 +34,8 @@ std::vector<Walk> walks() {
 /// The unit that a name ends with, as in "miss_m".
 std::string unit_of_name(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> endings = {
+      {"_m_s2", "m/s^2"},
+      {"_m2_s3", "m^2/s^3"},
       {"_m_s", "m/s"},
       {"_m", "m"},
       {"_s", "s"},

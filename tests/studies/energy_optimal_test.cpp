@@ -179,5 +179,18 @@ TEST(EnergyOptimal, ThrusterTooWeakIsTold) {
   EXPECT_EQ(exit_code(result), 1);
 }
 
+// No flight misses by less than the rounding of a position, a nanometre.
+TEST(EnergyOptimal, AThrustThatIsNotCorrectedIsSaid) {
+  Scene scene = thrust_scene(10e3, {2.0});
+  scene.transfer->refined_miss_m = 1e-12;  // below the rounding of a position
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.thrust);
+  EXPECT_FALSE(result.thrust->least);
+  EXPECT_NE(result.thrust->failure.find("was not corrected to 1e-12 m"), std::string::npos)
+      << result.thrust->failure;
+  EXPECT_EQ(result.thrust->failure, result.thrust->transfers[0].failure);
+  EXPECT_NE(exit_code(result), 0);
+}
+
 }  // namespace
 }  // namespace hamjet

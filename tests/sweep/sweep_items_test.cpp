@@ -83,6 +83,9 @@ TEST_F(SweepItems, AreOfEveryStudy) {
       study_.constants.push_back(
           {std::string(study.table), "{" + std::string(study.smallest) + "}"});
     }
+    if (study.table == "periodic") {  // the node of an orbit about an oblate body turns
+      study_.constants[0].value = "{model = \"kepler\", mu_km3_s2 = 398600.4415}";
+    }
     if (study.table == "assignment") {
       study_.constants.push_back(
           {"transfer", "{" + std::string(study_of_table("transfer").smallest) + "}"});

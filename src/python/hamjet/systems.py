@@ -104,7 +104,8 @@ class System:
         nominal = ({"coordinates": values[:n], "momenta": values[n:]}
                    if self.hamiltonian is not None else {"states": values})
         more = dict(tables or {})
-        jet = {"order": order, "duration_canonical": float(duration), **more.pop("jet", {})}
+        jet: dict[str, Any] = {"order": order, "duration_canonical": float(duration),
+                               **more.pop("jet", {})}
         if variables is not None:
             jet["variables"] = list(_names(variables, "variables"))
         scene = {"schema": 1, "title": "A system of one's own", "system": system,
