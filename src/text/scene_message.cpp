@@ -142,7 +142,7 @@ std::optional<std::string_view> nearest(std::string_view name,
 }
 
 std::string listed(const std::vector<std::string_view>& names) {
-  constexpr std::size_t most_shown = 48;
+  constexpr std::size_t most_shown = 42;
   std::string result;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (i > 0) result += ", ";
