@@ -67,7 +67,8 @@ void expect_published(const std::vector<test::PublishedEncounter>& encounters, l
         << name;
   }
   // Two intervals of 95 % are apart if the estimates differ by 2.8 standard errors, which one pair
-  // in 180 does by chance, on another processor another one; two in a dozen, one dozen in 500.
+  // in 180 does by chance. Case 12 is near that wherever its samples fall: of 400,000 the estimate
+  // is 0.002440 +- 0.000002, 3.3 standard errors of the difference above the published one.
   EXPECT_LE(apart.size(), 1U) << apart.front() << ", " << apart.back();
 }
 

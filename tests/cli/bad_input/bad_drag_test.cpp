@@ -29,10 +29,6 @@ duration_s = 600
 using BadDrag = RefusedScene;
 
 TEST_F(BadDrag, EachIsOneLine) {
-  struct Mistake {
-    string from, to;
-    std::vector<string> words;
-  };
   const std::vector<Mistake> mistakes = {
       {"\"harris-priester\"", "\"harris\"", {"5", "atmosphere", "harris-priester"}},
       {"mass_kg = 4", "mass_kg = 0", {"7", "mass_kg"}},
@@ -57,10 +53,7 @@ TEST_F(BadDrag, EachIsOneLine) {
       {"duration_s = 600\n",
        "duration_s = 600\n[generating_function]\nkinds = [\"F1\"]\n",
        {"19", "kinds", "despite_drag"}}};
-  for (const Mistake& mistake : mistakes) {
-    SCOPED_TRACE(mistake.to);
-    expect_refused(drag_scene, mistake.from, mistake.to, mistake.words);
-  }
+  expect_each_refused(drag_scene, mistakes);
 }
 
 TEST_F(BadDrag, OtherModelsHaveNoSpacecraft) {

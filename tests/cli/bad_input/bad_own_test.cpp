@@ -29,14 +29,8 @@ const string hamiltonian = R"T(hamiltonian = "(px^2 + py^2)/2 - 1/r + k*x")T";
 
 using BadOwn = RefusedScene;
 
-struct OwnMistake {
-  string from;
-  string to;
-  std::vector<string> words;
-};
-
 TEST_F(BadOwn, NamesAreOneLine) {
-  const std::vector<OwnMistake> mistakes = {
+  const std::vector<Mistake> mistakes = {
       {"k*x\"", "kk*x\"", {":9:15: system.hamiltonian", "\"kk\" at column 25", "k, mu, px"}},
       {"1/r", "1/R", {"\"R\" at column 21", "must be one of"}},
       {"2*mu", "2*nu", {":7:31: system.parameters.k", "\"nu\" at column 3"}},
@@ -51,14 +45,11 @@ TEST_F(BadOwn, NamesAreOneLine) {
       {"[\"x\", \"y\"]", "[\"x\", \"t\"]", {"system.coordinates", "t is the time"}},
       {"[\"px\", \"py\"]", "[\"px\", \"2p\"]", {":6:11: system.momenta: no name", "a letter"}}};
   ASSERT_EQ(mistakes.size(), 13U);
-  for (const auto& [from, to, words] : mistakes) {
-    SCOPED_TRACE(to);
-    expect_refused(own_scene, from, to, words);
-  }
+  expect_each_refused(own_scene, mistakes);
 }
 
 TEST_F(BadOwn, VariablesAreOneLine) {
-  const std::vector<OwnMistake> mistakes = {
+  const std::vector<Mistake> mistakes = {
       {"momenta = [\"px\", \"py\"]\n", "", {":3:1: system.momenta: missing"}},
       {"[\"px\", \"py\"]", "[\"px\"]", {"system.momenta: wrong length", "must be 2"}},
       {"[\"px\", \"py\"]", "[\"px\", \"px\"]", {"system.momenta: a name given twice, got px"}},
@@ -70,14 +61,11 @@ TEST_F(BadOwn, VariablesAreOneLine) {
       {"[nominal]", "[units]\nlength_km = 9\n[nominal]", {"units.time_s: missing", "above 0"}},
       {"model = \"own\"", "model = \"own\"\nmu_km3_s2 = 4e5", {"system.mu_km3_s2", "no key"}}};
   ASSERT_EQ(mistakes.size(), 10U);
-  for (const auto& [from, to, words] : mistakes) {
-    SCOPED_TRACE(to);
-    expect_refused(own_scene, from, to, words);
-  }
+  expect_each_refused(own_scene, mistakes);
 }
 
 TEST_F(BadOwn, ExpressionsAreOneLine) {
-  const std::vector<OwnMistake> mistakes = {
+  const std::vector<Mistake> mistakes = {
       {"sqrt(x^2 + y^2)", "sqrt(x^2, y^2)", {"definitions.r", "2 arguments", "must have 1"}},
       {"k*x", "atan2(y)", {"atan2", "must have 2, as atan2(y, x)"}},
       {"k*x", "k x", {"no operator, got \"x\"", "such as *"}},
@@ -90,14 +78,11 @@ TEST_F(BadOwn, ExpressionsAreOneLine) {
       {hamiltonian, "hamiltonian = 3", {"system.hamiltonian: wrong type", "must be a string"}},
       {hamiltonian, "hamiltonian = \"H = px^2\"", {"an equation", "must be an expression alone"}}};
   ASSERT_EQ(mistakes.size(), 11U);
-  for (const auto& [from, to, words] : mistakes) {
-    SCOPED_TRACE(to);
-    expect_refused(own_scene, from, to, words);
-  }
+  expect_each_refused(own_scene, mistakes);
 }
 
 TEST_F(BadOwn, WhatHasNoValueIsOneLine) {
-  const std::vector<OwnMistake> mistakes = {
+  const std::vector<Mistake> mistakes = {
       {"mu = 0.01", "mu = \"1/0\"", {"parameters.mu: division by zero"}},
       {"mu = 0.01", "mu = \"sqrt(-1)\"", {"parameters.mu: no finite real value", "given -1"}},
       {"mu = 0.01", "mu = inf", {"parameters.mu: not finite"}},
@@ -108,15 +93,12 @@ TEST_F(BadOwn, WhatHasNoValueIsOneLine) {
       {"k*x", "(x - 1)^0.5", {"no finite equations of motion at the start"}},
       {"k*x", "tan(x*pi/2)", {"at the start: no finite real value, got \"tan\""}}};
   ASSERT_EQ(mistakes.size(), 9U);
-  for (const auto& [from, to, words] : mistakes) {
-    SCOPED_TRACE(to);
-    expect_refused(own_scene, from, to, words);
-  }
+  expect_each_refused(own_scene, mistakes);
 }
 
 TEST_F(BadOwn, StudiesAreOneLine) {
   const auto table = [](const string& text) { return text + "\n[nominal]"; };
-  const std::vector<OwnMistake> mistakes = {
+  const std::vector<Mistake> mistakes = {
       {"[nominal]", table("[event]\nsurface = \"apsis\""), {"event: ", "must be an orbit"}},
       {"[nominal]", table("[periodic]\nhold = \"z\""), {"periodic.hold", "energy, period, x"}},
       {"[nominal]", table("[periodic]\narcs = 0"), {"periodic.arcs", "from 1 to 64"}},
@@ -130,10 +112,7 @@ TEST_F(BadOwn, StudiesAreOneLine) {
       {"duration_canonical = 1", "duration_canonical = -1\n[periodic]", {"periodic: no guess"}},
       {"duration_canonical = 1", "duration_orbits = 1", {"jet.duration_orbits", "no key"}}};
   ASSERT_EQ(mistakes.size(), 8U);
-  for (const auto& [from, to, words] : mistakes) {
-    SCOPED_TRACE(to);
-    expect_refused(own_scene, from, to, words);
-  }
+  expect_each_refused(own_scene, mistakes);
   // An orbit that closes at one time does not at another where the forces change.
   expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",
                  {"periodic: of a Hamiltonian that depends on the time, got t", "without t"});

@@ -29,10 +29,6 @@ duration_s = 600
 using BadRadiation = RefusedScene;
 
 TEST_F(BadRadiation, EachIsOneLine) {
-  struct Mistake {
-    string from, to;
-    std::vector<string> words;
-  };
   const std::vector<Mistake> mistakes = {
       {"radiation = true", "radiation = true\nsun = false", {"5", "radiation", "without the Sun"}},
       {"radiation = true", "radiation = 1", {"5", "radiation"}},
@@ -55,10 +51,7 @@ TEST_F(BadRadiation, EachIsOneLine) {
       {"order = 1",
        "order = 1\nvariables = [\"x\", \"radiation\"]",
        {"17", "variables", "unknown variable"}}};
-  for (const Mistake& mistake : mistakes) {
-    SCOPED_TRACE(mistake.to);
-    expect_refused(radiation_scene, mistake.from, mistake.to, mistake.words);
-  }
+  expect_each_refused(radiation_scene, mistakes);
 }
 
 // Drag and light are two variables of the chief's polynomials, which are flown beside the deputy.
