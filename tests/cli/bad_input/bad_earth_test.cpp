@@ -54,25 +54,12 @@ string ephemeris_message(const string& frame, const string& time_system = "UTC")
          "2023-05-16T06:00:00 6892.137 0 0 0 1 7.5\n";
 }
 
-class BadEarth : public RefusedScene {
- protected:
-  struct Mistake {
-    string from;
-    string to;
-    std::vector<string> words;
-  };
-
-  void expect_each_refused(const std::vector<Mistake>& mistakes) const {
-    for (const Mistake& mistake : mistakes) {
-      SCOPED_TRACE(mistake.to);
-      expect_refused(earth_scene, mistake.from, mistake.to, mistake.words);
-    }
-  }
-};
+using BadEarth = RefusedScene;
 
 TEST_F(BadEarth, Axes) {
   const string epoch = "epoch_utc = \"2023-05-16T06:00:00\"\n";
   expect_each_refused(
+      earth_scene,
       {{epoch,
         epoch + "axes = \"ECEF\"\n",
         {"bad.toml:7:8: nominal.axes: unknown value, got \"ECEF\", must be one of: GCRF, EME2000"}},
@@ -82,6 +69,7 @@ TEST_F(BadEarth, Axes) {
 TEST_F(BadEarth, Epochs) {
   const string key = "epoch_utc", date = "2023-05-16T06:00:00";
   expect_each_refused(
+      earth_scene,
       {{key, "epoch", {"bad.toml:6:9: nominal.epoch: without a time system", "epoch_utc"}},
        {key + " = \"" + date + "\"\n", "", {"bad.toml:5:1: nominal: no epoch", "epoch_tt"}},
        {key,
@@ -126,6 +114,7 @@ TEST_F(BadEarth, Fields) {
   write("mean.gfc", field_file("tide_system mean_tide\n"));
   const string degree = "gravity_degree = 4\n";
   expect_each_refused(
+      earth_scene,
       {{degree,
         "gravity_degree = 36\n",
         {"bad.toml:4:18: system.gravity_degree: beyond the field that is built in", "20"}},
@@ -224,7 +213,7 @@ TEST_F(BadEarth, WhatNeedsAFlowThatIsTheSameAtEveryStart) {
        "velocity_m_s = [0.01, 0.01, 0.01]\ncoordinates = [\"cartesian\", \"flow-box\"]\n"
        "[[integrator]]",
        {"bad.toml:19:", "uncertainty.coordinates", "needs a flow", "must be left out"}}};
-  expect_each_refused(mistakes);
+  expect_each_refused(earth_scene, mistakes);
   write("bad.toml", earth_scene);
   expect_error({"poincare", "bad.toml"}, 3, {"system.model: its forces depend on the time"});
 }
