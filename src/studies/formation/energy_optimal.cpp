@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "../../algebra/state_sums.hpp"
