@@ -4,11 +4,18 @@
 
 namespace hamjet {
 
-// Absolute value and finiteness for double and Extended alike.
+// Absolute values and finiteness for double and Extended alike.
 
 template <class Real>
 Real magnitude(const Real& x) {
   return x < 0 ? Real(-x) : x;
+}
+
+/// The larger of a, which is not negative, and |b|.
+template <class Real>
+Real larger_magnitude(const Real& a, const Real& b) {
+  const Real size = magnitude(b);
+  return a < size ? size : a;
 }
 
 template <class Real>

@@ -54,14 +54,15 @@ class SeriesStepControl {
     double mode = 0;
     double size = 0;
     double velocity = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-        const P slope = stages.slope(c, k);
-        mode = std::max(mode, std::abs(static_cast<double>(dot(last_mode, slope))));
-        size = std::max(size, static_cast<double>(largest_magnitude(slope)));
-        if (system.second_order()) {
-          velocity = std::max(velocity, std::abs(static_cast<double>(jet[m + c][k])));
-        }
+    for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
+      const auto slope = [&](std::size_t c) { return stages.slope(c, k); };
+      mode = std::max(mode, static_cast<double>(stages.template largest_component<Real>(
+                                [&](std::size_t c) { return dot(last_mode, slope(c)); })));
+      size = std::max(size, static_cast<double>(
+                                largest_magnitude(stages.template largest_component<P>(slope))));
+      if (!system.second_order()) continue;
+      for (std::size_t c = 0; c < m; ++c) {
+        velocity = std::max(velocity, std::abs(static_cast<double>(jet[m + c][k])));
       }
     }
     if (system.second_order()) {
@@ -69,7 +70,8 @@ class SeriesStepControl {
       if (!system.unit_mass()) {
         velocity *= std::abs(static_cast<double>(system.inverse_mass(0, 0)));
       }
-      size = std::max(size, 0.5 * std::sqrt(stages.largest_gradient(0)) * velocity);
+      size = std::max(
+          size, 0.5 * std::sqrt(static_cast<double>(stages.gradient_sizes().lane(0))) * velocity);
     }
     return size > 0 ? mode / size : 0;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dynamics/fields/point_mass_field.hpp"
@@ -12,6 +13,7 @@
 #include "hamjet/integrators/energy_conserving.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "hamjet/integrators/gauss_many.hpp"
 #include "support/errors.hpp"
 #include "support/exponential_air.hpp"
 #include "support/flow.hpp"
@@ -138,6 +140,45 @@ TEST(DragFlow, MethodsAgree) {
   for (std::size_t i = 0; i < gauss.size(); ++i) {
     for (std::size_t k = 0; k < gauss[i].size(); ++k) {
       EXPECT_NEAR(gauss[i][k], fehlberg[i][k], 1e-9 * (1 + std::abs(gauss[i][k]))) << i << " " << k;
+    }
+  }
+}
+
+/// Kepler's problem with a drag of -0.01 p, in units of `length` of the unit in which the
+/// pericentre is 1: with mu = 1 momenta and times follow from the length.
+test::Flow<double> slowed_ellipse(double length) {
+  const double time = std::pow(length, 1.5);
+  const DynamicalSystem system = with_force(kepler(), [time](std::span<const Expression> z) {
+    return std::vector<Expression>{-0.01 * time * z[3], -0.01 * time * z[4], -0.01 * time * z[5]};
+  });
+  const double momentum = 1 / std::sqrt(length);
+  return {system, {1 / length, 0, 0, 0, 1.2 / momentum, 0.1 / momentum}, 15 / time, 2};
+}
+
+TEST(DragFlow, TheUnitOfLengthChangesNoStep) {
+  const test::Flow<double> natural = slowed_ellipse(1);
+  ASSERT_FALSE(natural.system.second_order);
+  const auto fly = [](const test::Flow<double>& flow, bool in_lanes) {
+    if (in_lanes) {
+      const auto outcome =
+          integrate_gauss_many(test::problem_of(flow), {flow.start}, test::adaptive(8, 1e-12))[0];
+      EXPECT_FALSE(outcome.was_alone);
+      return std::pair(outcome.statistics.steps, outcome.jet);
+    }
+    IntegrationStatistics statistics;
+    FlowJet<double> jet = test::run_gauss(flow, test::adaptive(8, 1e-12), &statistics);
+    return std::pair(statistics.steps, std::move(jet));
+  };
+  for (const bool in_lanes : {false, true}) {
+    const auto [steps, jet] = fly(natural, in_lanes);
+    for (const double length : {0x1p-30, 0x1p-6, 0x1p10, 0x1p30}) {
+      const auto [other_steps, other] = fly(slowed_ellipse(length), in_lanes);
+      // Rounding of the measures may take a step from one side to the other.
+      EXPECT_NEAR(static_cast<double>(other_steps), static_cast<double>(steps), 1) << length;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const double unit = i < 3 ? length : 1 / std::sqrt(length);
+        EXPECT_NEAR(other[i][0] * unit, jet[i][0], 1e-11) << length << " " << i;
+      }
     }
   }
 }

@@ -31,40 +31,29 @@ class GaussStepControl {
 
   /// The first step, from the gradient at the start; `point` must have been evaluated there.
   Real first_step(SliceEvaluator<Real, Real>& point, const Real& duration) {
-    const std::size_t m = stages_.system().components();
-    double norm = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      double row = 0;
-      for (std::size_t k = 0; k < m; ++k) {
-        row += std::abs(static_cast<double>(point.output_gradient(c, k)));
-      }
-      norm = std::max(norm, row);
-    }
+    const auto entry = [&](std::size_t c, std::size_t k) { return point.output_gradient(c, k); };
+    const ComponentUnits& units = stages_.units();
+    const Real norm = units.row_norm(entry, units.template blocks<Real>(entry).inverse_sigma());
     const double span = static_cast<double>(duration);
-    const double h = rule_.first_step(norm, *settings_.tolerance, span);
+    const double h = rule_.first_step(static_cast<double>(norm), *settings_.tolerance, span);
     return std::abs(h) == std::abs(span) ? duration : Real(h);
   }
 
   /// Distance, at the start of the step, between the slope and the collocation polynomial.
   double start_defect(const std::vector<Real>& end_slope) const {
-    double result = 0;
-    for (std::size_t c = 0; c < end_slope.size(); ++c) {
-      const Real difference = stages_.slope_at_start(c) - end_slope[c];
-      result = std::max(result, std::abs(static_cast<double>(difference)));
-    }
-    return result;
+    return static_cast<double>(stages_.template largest_component<Real>(
+        [&](std::size_t c) { return stages_.slope_at_start(c) - end_slope[c]; }));
   }
 
   double error_estimate(const Real& h, const std::vector<Real>& start_slope) {
     StepMeasures step;
     step.defect = start_defect(start_slope);
     step.slope = stages_.largest_slope();
-    step.first_gradient = stages_.largest_gradient(0);
-    step.largest_gradient = stages_.largest_gradient();
-    const std::size_t m = stages_.system().components();
-    for (std::size_t c = 0; c < m; ++c) {
-      step.place = std::max(step.place, std::abs(static_cast<double>(jet_.constant(c))));
-    }
+    const P gradients = stages_.gradient_sizes();
+    step.first_gradient = static_cast<double>(gradients.lane(0));
+    step.largest_gradient = static_cast<double>(largest_magnitude(gradients));
+    step.place = static_cast<double>(
+        stages_.template largest_component<Real>([&](std::size_t c) { return jet_.constant(c); }));
     step.velocity = velocity();
     return rule_.error_estimate(step, static_cast<double>(h),
                                 [this](int degree) { return mode(degree); });
@@ -92,8 +81,9 @@ class GaussStepControl {
 
   double time_scale_ratio() {
     StepMeasures step;
-    step.first_gradient = stages_.largest_gradient(0);
-    step.last_gradient = stages_.largest_gradient(settings_.stages - 1);
+    const P gradients = stages_.gradient_sizes();
+    step.first_gradient = static_cast<double>(gradients.lane(0));
+    step.last_gradient = static_cast<double>(gradients.lane(settings_.stages - 1));
     return rule_.time_scale_ratio(step);
   }
 
@@ -114,12 +104,9 @@ class GaussStepControl {
 
   /// The largest component of the slopes' Legendre mode of one degree, which is below s.
   double mode(int degree) {
-    double result = 0;
     const P& weights = stages_.system().coefficients().modes[static_cast<std::size_t>(degree)];
-    for (const P& slope : stages_.slopes()) {
-      result = std::max(result, std::abs(static_cast<double>(dot(weights, slope))));
-    }
-    return result;
+    return static_cast<double>(stages_.template largest_component<Real>(
+        [&](std::size_t c) { return dot(weights, stages_.slopes()[c]); }));
   }
 
   double velocity() {

@@ -83,9 +83,7 @@ class NominalStages {
     return stages_.largest_gradient() * stages_.displacement(jet_.start());
   }
 
-  double reach(const Real& h) {
-    return step_reach(stages_.system(), start_slope_, jet_.start(), h);
-  }
+  double reach(const Real& h) { return step_reach(stages_, start_slope_, jet_.start(), h); }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
   /// much, the path is refined. A path that ends (in a fold) has no continuation, however far it is
@@ -104,7 +102,7 @@ class NominalStages {
       const std::vector<P> before = stages_.slopes();
       const Real next_step = h * Real(next);
       if (try_step(next_step) &&
-          largest_change(before, stages_.slopes(), settings_.stages) <=
+          largest_change(stages_, before, stages_.slopes()) <=
               0.25 * stages_.largest_slope() + expected_change() &&
           stages_.displacement(jet_.start()) <= 4 * std::max(distance, reach(next_step))) {
         distance = stages_.displacement(jet_.start());

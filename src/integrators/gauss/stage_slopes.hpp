@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "component_units.hpp"
 #include "degree_iteration.hpp"
 #include "hamjet/detail/dynamics/slice_evaluator.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
@@ -31,6 +32,7 @@ class StageSlopes {
   StageSlopes(const DynamicalSystem& system, const GaussTableau& tableau, SpacePointer space,
               int working_order)
       : system_(system, tableau),
+        units_(system),
         list_(system.evaluated_list()),
         evaluator_(list_, space, working_order),
         space_(std::move(space)),
@@ -85,42 +87,30 @@ class StageSlopes {
     }
   }
 
+  /// The largest value(c), a number or several, of the measured components in their units.
+  template <class T, class Value>
+  T largest_component(const Value& value) const {
+    T largest(Real(0));
+    for (std::size_t c = 0; c < units_.count(); ++c) {
+      largest = larger_magnitude(largest, T(value(c) * T(units_.inverse_unit(c, inverse_sigma_))));
+    }
+    return largest;
+  }
+
   double largest_slope() const {
-    P largest(Real(0));
-    for (const P& slope : slopes_) largest = larger_magnitude(largest, slope);
-    return static_cast<double>(largest_magnitude(largest));
+    return largest_of(largest_component<P>([this](std::size_t c) { return slopes_[c]; }));
   }
 
-  /// The largest entry of Dg at one stage.
-  double largest_gradient(int stage) const {
-    double result = 0;
-    for (std::size_t c = 0; c < system_.components(); ++c) {
-      for (std::size_t k = 0; k < system_.components(); ++k) {
-        result = std::max(result, std::abs(static_cast<double>(slope_gradient(c, k).lane(stage))));
-      }
-    }
-    return result;
-  }
-
+  /// The largest entry of Dg at the stages, see GradientBlocks.
+  P gradient_sizes() const { return gradient_blocks().largest(); }
   /// The largest entry of Dg over all stages.
-  double largest_gradient() const {
-    P largest(Real(0));
-    for (std::size_t c = 0; c < system_.components(); ++c) {
-      for (std::size_t k = 0; k < system_.components(); ++k) {
-        largest = larger_magnitude(largest, slope_gradient(c, k));
-      }
-    }
-    return static_cast<double>(largest_magnitude(largest));
-  }
+  double largest_gradient() const { return largest_of(gradient_sizes()); }
 
   /// The largest distance, over the stages, of a component from a point.
   template <class State>
   double displacement(const State& state) {
-    P largest(Real(0));
-    for (std::size_t c = 0; c < system_.components(); ++c) {
-      largest = larger_magnitude(largest, evaluator_.input(c)[0] - P(state(c)));
-    }
-    return static_cast<double>(largest_magnitude(largest));
+    return largest_of(
+        largest_component<P>([&](std::size_t c) { return evaluator_.input(c)[0] - P(state(c)); }));
   }
 
   /// The derivative d g_c / d Y_from at the stages.
@@ -216,7 +206,14 @@ class StageSlopes {
     place_stages(state);
     evaluator_.evaluate_constant_terms();
     ++statistics.nominal_evaluations;
+    if (system_.second_order()) return;
+    const GradientBlocks<P> blocks = gradient_blocks();
+    inverse_sigma_ = GradientBlocks<Real>{Real(0), largest_magnitude(blocks.velocity),
+                                          largest_magnitude(blocks.force)}
+                         .inverse_sigma();
   }
+
+  const ComponentUnits& units() const { return units_; }
 
   /// Forms B and, if asked for, K at the present stages; returns false if the matrix is singular.
   bool factorise(Response response = Response::formed) {
@@ -258,6 +255,12 @@ class StageSlopes {
   }
 
  private:
+  static double largest_of(const P& x) { return static_cast<double>(largest_magnitude(x)); }
+
+  GradientBlocks<P> gradient_blocks() const {
+    return units_.blocks<P>([this](std::size_t c, std::size_t k) { return slope_gradient(c, k); });
+  }
+
   template <std::size_t Width, class State>
   bool iterate_monomials(int d, std::size_t first, const State& state) {
     // The usual number of components is unrolled, and its numbers stay in registers.
@@ -370,6 +373,8 @@ class StageSlopes {
   }
 
   StageSystem<Real, Lanes> system_;
+  ComponentUnits units_;
+  Real inverse_sigma_ = 1;  ///< of the stages, see ComponentUnits
   OperationList list_;
   SliceEvaluator<P, Real> evaluator_;
   SpacePointer space_;

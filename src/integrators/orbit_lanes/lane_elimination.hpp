@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "orbits.hpp"
@@ -30,9 +31,12 @@ class LaneElimination {
         blocks_(stages * stages * components * components),
         scaled_(stages * components * components) {}
 
-  /// Takes the gradients in the layout of LaneField.
-  [[gnu::flatten]] void take(const std::vector<Orbits>& gradients, const Orbits& scale) {
+  /// Takes the gradients in the layout of LaneField, and the factors by which the entries (c, k) of
+  /// a block are compared with one another, at c m + k.
+  [[gnu::flatten]] void take(const std::vector<Orbits>& gradients, const Orbits& scale,
+                             std::vector<Orbits> entry_weights) {
     const std::size_t m = components();
+    entry_weights_ = std::move(entry_weights);
     for (std::size_t j = 0; j < stages_; ++j) {
       for (std::size_t e = 0; e < m * m; ++e) {
         scaled_[j * m * m + e] = scale * gradients[e * stages_ + j];
@@ -46,10 +50,10 @@ class LaneElimination {
   }
 
   /// Eliminates the matrix of the gradients that were taken. Returns, for each orbit, the largest
-  /// entry of L, U and the inverted diagonal blocks. The rounding errors of elimination without
-  /// pivoting grow with |L| |U| (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-  /// theorem 9.3). If the diagonal dominates, this number is at most 2 (theorem 9.9); in steps that
-  /// converge it is hardly larger, because W is nearly triangular.
+  /// weighted entry of L, U and the inverted diagonal blocks. The rounding errors of elimination
+  /// without pivoting grow with |L| |U| (Higham, Accuracy and Stability of Numerical Algorithms,
+  /// 2nd ed., theorem 9.3). If the diagonal dominates, this number is at most 2 (theorem 9.9); in
+  /// steps that converge it is hardly larger, because W is nearly triangular.
   [[gnu::flatten]] Orbits factorise() {
     const std::size_t m = components();
     const std::size_t row = stages_ * m * m;
@@ -73,7 +77,9 @@ class LaneElimination {
       }
     }
     Orbits growth(0.0);
-    for (const Orbits& entry : blocks_) growth = larger_magnitude(growth, entry);
+    for (std::size_t e = 0; e < blocks_.size(); ++e) {
+      growth = larger_magnitude(growth, blocks_[e] * entry_weights_[e % (m * m)]);
+    }
     return growth;
   }
 
@@ -186,6 +192,7 @@ class LaneElimination {
   std::vector<double> coupling_;
   std::vector<Orbits> blocks_;  ///< rows of blocks; each block by rows
   std::vector<Orbits> scaled_;  ///< scale Dg, by stage
+  std::vector<Orbits> entry_weights_;
   mutable std::vector<Orbits> copy_;
 };
 

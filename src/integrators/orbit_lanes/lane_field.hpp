@@ -81,18 +81,13 @@ class LaneField {
     point_.evaluate_constant_values();
     for (std::size_t c = 0; c < inputs_; ++c) slopes[c] = point_.output(c)[0];
   }
-  /// The largest sum of magnitudes of a row of Dg at the last evaluated point.
-  Orbits gradient_norm() {
+  /// ComponentUnits::row_norm of Dg at the last evaluated point.
+  Orbits gradient_norm(const ComponentUnits& units) {
     point_.evaluate_constant_terms();
-    Orbits norm(0.0);
-    for (std::size_t c = 0; c < inputs_; ++c) {
-      Orbits row(0.0);
-      for (std::size_t k = 0; k < inputs_; ++k) {
-        row += larger_magnitude(Orbits(0.0), point_.output_gradient(c, k));
-      }
-      norm = larger_magnitude(norm, row);
-    }
-    return norm;
+    const auto entry = [this](std::size_t c, std::size_t k) {
+      return point_.output_gradient(c, k);
+    };
+    return units.row_norm(entry, inverse_sigma(units.blocks<Orbits>(entry)));
   }
 
   /// For orders of 2 and more, sets the coefficients of the monomials of degree 2 in the inputs'

@@ -131,7 +131,7 @@ class LaneIntegrator {
     }
     if (is_any_new) {
       stages_.field().evaluate_at(now(), state(), start_slopes_);
-      const EachOrbit norms = apart(stages_.field().gradient_norm());
+      const EachOrbit norms = apart(stages_.field().gradient_norm(control_.units()));
       for (std::size_t k = 0; k < orbit_lanes; ++k) {
         if (is_new[k] != 0) propose_first_step(lanes_[k], norms[k]);
       }
@@ -169,7 +169,7 @@ class LaneIntegrator {
       taken[k] = is_sound && (settings_.step || errors[k] <= most_excess * lanes_[k].tolerance);
     }
     if (order_ >= 1 && std::any_of(taken.begin(), taken.end(), [](double x) { return x != 0; })) {
-      const EachOrbit growth = apart(jets_.take_equations(stages_));
+      const EachOrbit growth = apart(jets_.take_equations(stages_, control_.entry_weights()));
       for (std::size_t k = 0; k < orbit_lanes; ++k) {
         if (!(growth[k] <= LaneJets<Components>::most_growth)) {
           taken[k] = 0;

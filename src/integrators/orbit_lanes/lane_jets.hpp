@@ -82,8 +82,8 @@ class LaneJets {
 
   /// Takes the equations of the degrees 1 and 2, and eliminates them unless they are iterated.
   /// Returns the growth of the entries, see LaneElimination; 0 if nothing was eliminated.
-  Orbits take_equations(const LaneStages& stages) {
-    elimination_.take(stages.gradients(), stages.scale());
+  Orbits take_equations(const LaneStages& stages, std::vector<Orbits> entry_weights) {
+    elimination_.take(stages.gradients(), stages.scale(), std::move(entry_weights));
     is_eliminated_ = false;
     return is_iterated_ ? Orbits(0.0) : elimination_.factorise();
   }

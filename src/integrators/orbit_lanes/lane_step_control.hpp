@@ -19,11 +19,26 @@ class LaneStepControl {
   LaneStepControl(const DynamicalSystem& system, const LaneStages& stages, int order)
       : waves_(system.waves_on_a_circle),
         degrees_of_freedom_(system.degrees_of_freedom),
+        units_(system),
         stages_(stages),
         s_(static_cast<int>(stages.stages())),
         rule_(s_, stages.is_second_order(), order, std::numeric_limits<double>::epsilon()) {}
 
   const GaussStepRule& rule() const { return rule_; }
+  const ComponentUnits& units() const { return units_; }
+  /// The factors that make the entries (c, k) of a matrix such as Dg at the last step's stages
+  /// comparable, by rows. The columns of parameters, whose rows vanish, do not count.
+  std::vector<Orbits> entry_weights() const {
+    const std::size_t m = stages_.components();
+    std::vector<Orbits> result(m * m, Orbits(0.0));
+    for (std::size_t c = 0; c < units_.count(); ++c) {
+      for (std::size_t k = 0; k < units_.count(); ++k) {
+        result[c * m + k] =
+            units_.inverse_unit(c, inverse_sigma_) / units_.inverse_unit(k, inverse_sigma_);
+      }
+    }
+    return result;
+  }
   /// The measures of the last step of one orbit.
   const StepMeasures& measures(std::size_t lane) const { return measures_[lane]; }
 
@@ -50,24 +65,30 @@ class LaneStepControl {
   template <class State>
   [[gnu::flatten]] void look(const State& state, const std::vector<Orbits>& start_slopes) {
     const std::size_t m = stages_.components();
-    Orbits slope(0.0), first(0.0), last(0.0), largest(0.0), place(0.0), velocity(0.0);
-    for (const Orbits& x : stages_.slopes()) slope = larger_magnitude(slope, x);
     const auto s = static_cast<std::size_t>(s_);
-    for (std::size_t e = 0; e < m * m; ++e) {
-      const Orbits* const entries = &stages_.gradients()[e * s];
-      first = larger_magnitude(first, entries[0]);
-      last = larger_magnitude(last, entries[s - 1]);
-      for (std::size_t i = 0; i < s; ++i) largest = larger_magnitude(largest, entries[i]);
+    Orbits first(0.0), last(0.0), largest(0.0), slope(0.0), velocity(0.0);
+    GradientBlocks<Orbits> blocks{Orbits(0.0), Orbits(0.0), Orbits(0.0)};
+    for (std::size_t i = 0; i < s; ++i) {
+      const auto at_stage = units_.blocks<Orbits>(
+          [&](std::size_t c, std::size_t k) { return stages_.gradients()[(c * m + k) * s + i]; });
+      const Orbits size = at_stage.largest();
+      if (i == 0) first = size;
+      last = size;
+      largest = larger_magnitude(largest, size);
+      blocks.velocity = larger_magnitude(blocks.velocity, at_stage.velocity);
+      blocks.force = larger_magnitude(blocks.force, at_stage.force);
     }
-    for (std::size_t c = 0; c < m; ++c) {
-      place = larger_magnitude(place, state(c));
-      if (stages_.is_second_order()) velocity = larger_magnitude(velocity, state(m + c));
+    if (!stages_.is_second_order()) inverse_sigma_ = inverse_sigma(blocks);
+    for (std::size_t i = 0; i < s; ++i) {
+      slope = larger_magnitude(
+          slope, largest_component([&](std::size_t c) { return stages_.slopes()[c * s + i]; }));
     }
-    Orbits defect(0.0);
-    for (std::size_t c = 0; c < m; ++c) {
-      defect =
-          larger_magnitude(defect, weighted(stages_.coefficients().start, c) - start_slopes[c]);
+    const Orbits place = largest_component(state);
+    for (std::size_t c = 0; c < m && stages_.is_second_order(); ++c) {
+      velocity = larger_magnitude(velocity, state(m + c));
     }
+    const Orbits defect = largest_component(
+        [&](std::size_t c) { return weighted(stages_.coefficients().start, c) - start_slopes[c]; });
     for (std::size_t k = 0; k < orbit_lanes; ++k) {
       const auto lane = static_cast<int>(k);
       measures_[k] = {defect.lane(lane),  slope.lane(lane), first.lane(lane),   last.lane(lane),
@@ -97,6 +118,15 @@ class LaneStepControl {
   }
 
  private:
+  /// The largest value(c) of the measured components in their units.
+  template <class Value>
+  Orbits largest_component(const Value& value) const {
+    Orbits largest(0.0);
+    for (std::size_t c = 0; c < units_.count(); ++c) {
+      largest = larger_magnitude(largest, value(c) * units_.inverse_unit(c, inverse_sigma_));
+    }
+    return largest;
+  }
   Orbits weighted(const std::vector<double>& weights, std::size_t c) const {
     const Orbits* const slopes = &stages_.slopes()[c * weights.size()];
     Orbits sum(0.0);
@@ -104,28 +134,26 @@ class LaneStepControl {
     return sum;
   }
   EachOrbit mode(int degree) const {
-    Orbits largest(0.0);
-    if (degree < 0) return apart(largest);
+    if (degree < 0) return {};
     const auto& weights = stages_.coefficients().modes[static_cast<std::size_t>(degree)];
-    for (std::size_t c = 0; c < stages_.components(); ++c) {
-      largest = larger_magnitude(largest, weighted(weights, c));
-    }
-    return apart(largest);
+    return apart(largest_component([&](std::size_t c) { return weighted(weights, c); }));
   }
   template <class State>
   Orbits displacement(const State& state) const {
     Orbits largest(0.0);
     const auto s = static_cast<std::size_t>(s_);
-    for (std::size_t c = 0; c < stages_.components(); ++c) {
-      for (std::size_t i = 0; i < s; ++i) {
-        largest = larger_magnitude(largest, stages_.places()[c * s + i] - state(c));
-      }
+    for (std::size_t i = 0; i < s; ++i) {
+      largest = larger_magnitude(largest, largest_component([&](std::size_t c) {
+                                   return stages_.places()[c * s + i] - state(c);
+                                 }));
     }
     return largest;
   }
 
   int waves_;
   std::size_t degrees_of_freedom_;
+  ComponentUnits units_;
+  Orbits inverse_sigma_ = Orbits(1.0);  ///< of the last step's stages, see ComponentUnits
   const LaneStages& stages_;
   int s_;
   GaussStepRule rule_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <experimental/simd>
 
+#include "../gauss/component_units.hpp"
 #include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/instruction_set.hpp"
 
@@ -23,6 +24,15 @@ inline EachOrbit apart(const Orbits& values) {
   EachOrbit result{};
   for (std::size_t i = 0; i < orbit_lanes; ++i) result[i] = values.lane(static_cast<int>(i));
   return result;
+}
+
+/// GradientBlocks::inverse_sigma, lane by lane.
+inline Orbits inverse_sigma(const GradientBlocks<Orbits>& blocks) {
+  const EachOrbit velocity = apart(blocks.velocity);
+  const EachOrbit force = apart(blocks.force);
+  return Orbits::of_lanes([&](auto i) {
+    return GradientBlocks<double>{0, velocity[i], force[i]}.inverse_sigma();
+  });
 }
 
 /// Lane by lane, `chosen` if `flags` is not zero, otherwise `other`. The content of a lane never
