@@ -143,7 +143,8 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
           lines_of_run<Real>(along.at(times[i]), problem.system->degrees_of_freedom, settings);
       Directions<Real> at_time;
       for (const Direction<Real>& direction : directions) {
-        at_time.push_back({direction.entries, restrict_to_line(jets[i], direction.entries, line)});
+        at_time.push_back({direction.entries, restrict_to_line(jets[i], direction.entries, line),
+                           sizes_along(jets[i], direction.entries, line)});
       }
       include_lines<Real>(result[i], at_time, lines, largest[i]);
       if (number > 0) include_nominals(result[i], first[i], lines[0], largest[i][0]);

@@ -29,11 +29,28 @@ std::vector<double> largest_by_degree(const FlowJet<Real>& jet) {
   return largest;
 }
 
+/// By degree, the size of a jet along a direction if none of its monomials cancel: the root of the
+/// sum of their squares, in the largest component.
+template <class Real>
+std::vector<double> sizes_along(const FlowJet<Real>& jet, const std::vector<Real>& direction,
+                                const SpacePointer& line) {
+  FlowJet<Real> squares = jet;
+  for (Series<Real>& component : squares) {
+    for (Real& x : component.coefficients()) x *= x;
+  }
+  std::vector<Real> entries;
+  for (const Real& x : direction) entries.push_back(x * x);
+  std::vector<double> result = largest_by_degree(restrict_to_line(squares, entries, line));
+  for (double& x : result) x = std::sqrt(x);
+  return result;
+}
+
 /// A direction, with the jet along it.
 template <class Real>
 struct Direction {
   std::vector<Real> entries;
   FlowJet<Real> jet;
+  std::vector<double> sizes;  ///< sizes_along
   double distortion =
       0;  ///< logarithm of the largest factor by which a degree is larger or smaller along it
 };
@@ -42,8 +59,9 @@ struct Direction {
 template <class Real>
 Direction<Real> direction_of(std::vector<Real> entries, double length, const FlowJet<Real>& jet,
                              const SpacePointer& line, const std::vector<double>& largest) {
-  Direction<Real> direction{std::move(entries), {}, 0};
+  Direction<Real> direction{std::move(entries), {}, {}, 0};
   direction.jet = restrict_to_line(jet, direction.entries, line);
+  direction.sizes = sizes_along(jet, direction.entries, line);
   const std::vector<double> along = largest_by_degree(direction.jet);
   double weight = 1;  // weight of a monomial
   for (std::size_t d = 1; d < along.size(); ++d) {

@@ -8,7 +8,7 @@ import numpy as np
 
 import orbit
 from command import Run
-from flight import REAL
+from flight import REAL, FlightFailed
 from refusal import judge_surface, results
 
 POINTS = 25
@@ -113,7 +113,11 @@ def taylor_coefficients(scene, units, u, order):
     cosines = np.cos(np.outer(np.arange(POINTS), angles))
     while True:
         starts = scene.chief + np.outer(width * nodes, u * units)
-        ends = scene.field.to(starts, scene.duration) / units
+        try:
+            ends = scene.field.to(starts, scene.duration) / units
+        except FlightFailed:  # of a start too far from the chief
+            width /= REAL(4)
+            continue
         series = 2 * cosines @ ends / POINTS  # [k, 6]
         series[0] /= 2
         sizes = orbit.norm(series)

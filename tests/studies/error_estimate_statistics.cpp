@@ -40,6 +40,7 @@ class Ratios {
     const double excess = estimate / std::max(error, rounding);
     const bool is_high = excess > 100;
     high_ += excess > 10 ? 1 : 0;
+    rather_high_ += excess > 30 ? 1 : 0;
     very_high_ += is_high ? 1 : 0;
     if (error > 5 * estimate) {
       fmt::print("{}: error {:.2e}, estimate {:.2e}, ratio {:.3g}\n", what, error, estimate,
@@ -58,11 +59,11 @@ class Ratios {
     };
     fmt::print(
         "error / estimate of {}: 1 % {:.2g}, median {:.2g}, 90 % {:.2g}, 99 % {:.2g}, largest "
-        "{:.3g}\ntoo low by more than 10: {}, 30: {}, 100: {}; too high by more than 10: {}, 100: "
-        "{}\n",
+        "{:.3g}\ntoo low by more than 10: {}, 30: {}, 100: {}; too high by more than 10: {}, 30: "
+        "{}, 100: {}\n",
         ratios_.size(), quantile(ratios_, 0.01), quantile(ratios_, 0.5), quantile(ratios_, 0.9),
         quantile(ratios_, 0.99), ratios_.back(), above(10), above(30), above(100), high_,
-        very_high_);
+        rather_high_, very_high_);
     return static_cast<double>(above(10)) <= 0.01 * static_cast<double>(ratios_.size()) &&
            above(most) == 0;
   }
@@ -70,6 +71,7 @@ class Ratios {
  private:
   std::vector<double> ratios_;
   int high_ = 0;
+  int rather_high_ = 0;
   int very_high_ = 0;
   bool shows_high_ = std::getenv("HAMJET_SHOW_HIGH") != nullptr;
 };

@@ -34,9 +34,9 @@ struct ErrorEstimateSettings {
 /// are chosen for all degrees. The jet's degree-d part along a direction minus the degree-d
 /// coefficient of the run is a sum of the errors of all monomials of this degree, with weights of
 /// order 1. For each run, the root mean square of these differences over its directions is divided
-/// by the smaller of the jet's largest coefficient and the root mean square of the run's
-/// coefficients, and multiplied by error_estimate_safety. The estimate is the larger result of both
-/// runs, and never below the rounding of Real.
+/// by the geometric mean of the jet's largest coefficient and its size along the directions without
+/// cancellation, and multiplied by error_estimate_safety (by more where a run is smaller than the
+/// jet). The estimate is the larger of both, and at least the rounding of Real.
 ///
 /// `known` may hold independent jets of this flow along lines, with other stages and finer steps
 /// than those of the given jet (IntegrationStatistics::finer_lines). They then replace the second
@@ -54,9 +54,9 @@ struct ErrorEstimateSettings {
 /// as that of the jet; for normal distributions P(|e| > x |e - e'|) is about 0.32 / x. Where
 /// truncation over few steps dominates, the error of degree d is about (g.x)^d, where g is the
 /// deviation that a step resolves worst. On 530 ellipses, with orders 5 to 8 over parts of a
-/// revolution, the error was up to 290 times what the best two of sixteen directions show. It was
-/// at most 3 times the mean over eight directions, and this mean at most 60 times the error (99 %
-/// within 27). The tests measure this over hundreds of random scenes.
+/// revolution, the error was up to 290 times what the best two of sixteen directions show. Of 500
+/// random jets, 3018 degrees in all, the error was at most 8.5 times the estimate, and the estimate
+/// above ten times the error in 7 %. The tests measure this over hundreds of random scenes.
 ///
 /// Returns zeros for a duration of zero, where the jet is exact. Throws Error(usage) if the jet or
 /// a known line does not fit the problem, Error(numerical) if the independent run fails,
