@@ -60,32 +60,29 @@ void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const
 ///
 /// They are relative to the geometric mean of the jet's largest coefficient and its size along the
 /// directions without cancellation. If the errors are spread over the monomials as the coefficients
-/// are, the latter is right; if a single monomial has all of the error, the former. A jet that is
-/// larger than the lines is wrong, and the lines are then the measure.
+/// are, the latter is right; if a single monomial has all of the error, the former. Where a jet
+/// differs from the lines by a tenth, its own size may be wrong, and the lines are the measure.
 template <class Real>
 std::vector<double> mean_line_differences(std::span<const Direction<Real>> directions,
                                           const std::vector<FlowJet<Real>>& lines,
                                           const std::vector<double>& largest) {
   std::vector<double> error(largest.size(), 0);
   std::vector<double> along(largest.size(), 0);
-  std::vector<double> of_jet(largest.size(), 0);
   std::vector<double> uncancelled(largest.size(), 0);
   const auto add = [](double& sum, double x) { sum = std::hypot(sum, x); };
   for (std::size_t j = 0; j < directions.size(); ++j) {
     const std::vector<double> difference = line_differences(directions[j].jet, lines[j]);
     const std::vector<double> of_line = largest_by_degree(lines[j]);
-    const std::vector<double> of_direction = largest_by_degree(directions[j].jet);
     for (std::size_t d = 0; d < error.size(); ++d) {
       add(error[d], difference[d]);
       add(along[d], of_line[d]);
-      add(of_jet[d], of_direction[d]);
       add(uncancelled[d], directions[j].sizes[d]);
     }
   }
   const double root = std::sqrt(static_cast<double>(directions.size()));
   for (std::size_t d = 0; d < error.size(); ++d) {
     double scale = std::sqrt(uncancelled[d] / root * largest[d]);
-    if (along[d] < of_jet[d]) scale *= along[d] / of_jet[d];
+    if (10 * error[d] > along[d] && along[d] > 0) scale = std::min(along[d] / root, largest[d]);
     if (scale == 0) scale = std::max(along[d] / root, largest[d]);
     error[d] = scale == 0 ? 0 : error[d] / root / scale;
   }
