@@ -34,7 +34,7 @@ struct EvaluatedScene {
   /// The rounding of a deputy's final position: a flight's floor and what a prediction rounds.
   double rounding_m = 0;
   FlowError error;     ///< of the integration
-  double seconds = 0;  ///< of the integration; 0 of a stored jet
+  double seconds = 0;  ///< duration of the integration; 0 for a stored jet
   /// Of the chief's flight; none of a stored jet, which has its own.
   std::vector<SelfCheck> checks;
 };

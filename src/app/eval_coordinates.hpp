@@ -21,8 +21,8 @@ const std::vector<DeputyForm>& forms();
 
 /// The words of the command line, or of the module's evaluate_relative.
 struct EvalFrames {
-  std::string frame = "RTN";                    ///< name of a form, or canonical
-  std::optional<std::string> to = {};           ///< likewise, of the results; as `frame` if absent
+  std::string frame = "RTN";           ///< name of a form, or canonical
+  std::optional<std::string> to = {};  ///< the frame of the results; that of `frame` if absent
   std::optional<std::string> derivatives = {};  ///< of RTN: rotating (default) or inertial
   Caller caller = Caller::command;
 

@@ -28,7 +28,7 @@ class FlowError {
   /// What results state of their coefficients by degree, as a bound; nothing where they do not.
   static FlowError stated(const io::StoredJet& stored, const DeputyFlow& flow);
 
-  /// All that it holds, and the same from there.
+  /// All numbers that this object holds; the constructor below makes an equal object of them.
   std::vector<double> numbers() const;
   static FlowError of_numbers(std::span<const double> numbers);
 

@@ -12,7 +12,7 @@ namespace hamjet::cli {
 /// A stored jet in other coordinates, and what it lost.
 struct ConvertedJet {
   io::StoredJet stored;
-  CoordinatesAtEnds from;  ///< those of the given one
+  CoordinatesAtEnds from;  ///< coordinates of the given jet
   /// By how much the jet differs from the given one, degree by degree, once it is brought back: the
   /// largest difference relative to the largest coefficient of the degree. Empty of a given flow
   /// box, for which no gravity field need be known.

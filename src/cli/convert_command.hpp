@@ -15,10 +15,10 @@ struct ConvertOptions {
   std::string from;  ///< results of `hamjet run`, or a file of a jet
   std::string to;    ///< .h5, .dace or .csv
   std::optional<std::string> run;
-  std::optional<std::string> time;             ///< of the jet, in seconds; absent: the end
-  std::optional<std::string> coordinates;      ///< of both ends; absent: as they are
-  std::optional<std::string> end_coordinates;  ///< of the results alone
-  std::optional<std::string> scene;            ///< of the jet, for the field of flow boxes
+  std::optional<std::string> time;             ///< time of the jet in seconds; absent: the end
+  std::optional<std::string> coordinates;      ///< coordinates at both ends; absent: as they are
+  std::optional<std::string> end_coordinates;  ///< coordinates at the end alone
+  std::optional<std::string> scene;            ///< scene of the jet, for the field of flow boxes
   io::JetDescription foreign;                  ///< what is told of a jet from elsewhere
 };
 

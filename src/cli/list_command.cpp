@@ -54,7 +54,8 @@ struct Topic {
   const char* name;
   const char* heading;  ///< in the list of everything; of Markdown, for the keys are a page of that
   std::string (*text)();
-  bool is_page = false;  ///< of Markdown, which a terminal's width does not concern
+  bool is_page =
+      false;  ///< whether it is a page of Markdown, which is not fitted to the terminal's width
 };
 
 const std::vector<Topic>& topics() {

@@ -47,7 +47,7 @@ std::vector<TimedStudy> timed_studies(const Scene& scene) {
     studies.push_back({study->command, [&scene, study](const auto& progress) {
                          io::StudyWork work{progress, {}, usable_processors()};
                          work.origin.gnuplot = "";
-                         study->report(scene, work);
+                         study->study(scene, work).report();
                        }});
   }
   return studies;

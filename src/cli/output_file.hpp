@@ -9,7 +9,7 @@
 
 namespace hamjet::cli {
 
-/// What becomes of a file that is there already.
+/// What happens to a file of the same name that exists already.
 enum class Existing { replaced, kept };
 
 /// The one file that the user named, written in full or not at all. Errors are

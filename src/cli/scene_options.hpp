@@ -19,9 +19,9 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;
   bool quiet = false;
-  bool has_time = false;  ///< of check: how long each command would take is measured
+  bool has_time = false;  ///< for check: whether to measure how long each command would take
   bool verbose = false;
-  std::size_t threads = 0;  ///< for arcs; 0: as many as the machine runs at once
+  std::size_t threads = 0;  ///< number of threads for arcs; 0: as many as the machine runs at once
   std::string command;      ///< the command line, for reports
 };
 

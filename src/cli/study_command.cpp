@@ -90,8 +90,9 @@ int study(const RunOptions& options, std::string_view command) {
   return report_study(
       options, scene.name + described.suffix(), [&](const ProgressCallback& progress) {
         return io::naming_file(*options.scene_file, [&] {
-          return described.report(scene,
-                                  {progress, report_origin(options.command), usable_processors()});
+          return described
+              .study(scene, {progress, report_origin(options.command), usable_processors()})
+              .report();
         });
       });
 }

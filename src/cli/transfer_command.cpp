@@ -89,7 +89,7 @@ int transfer_by_stored_jet(const RunOptions& options, const StoredJetChoice& jet
   const io::StoredJet stored = read_stored_jet(jet);
   const Scene scene = read_scene_of(stored, options);
   const io::StudyDescription& study = io::study_of_table("transfer");
-  // A stored jet may well have been composed of arcs.
+  // Arcs are not refused: a stored jet may have been composed of them.
   io::require_table(study, scene, *options.scene_file);
   note_escape(options, scene);
   const std::string name = scene.name + study.suffix();

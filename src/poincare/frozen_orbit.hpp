@@ -10,15 +10,15 @@ namespace hamjet {
 /// a fixed point of the first return (q, p) -> (q', p') at its energy and H.
 template <class Real>
 struct FrozenOrbit {
-  SixNumbers<Real> state;        ///< on the section
+  SixNumbers<Real> state;        ///< state on the section
   SixNumbers<Real> coordinates;  ///< the nodal chart's
   Real energy;
-  Real period;  ///< from section to section
+  Real period;  ///< time from section to section
   Real node;    ///< by how much the node advances in that time
   /// d q'/dq, d q'/dp, d p'/dq, d p'/dp at the energy and H; its determinant is 1.
   std::array<Real, 4> derivative;
   Real residual;       ///< the largest of |q' - q| and |p' - p|
-  int iterations = 0;  ///< of Newton's method
+  int iterations = 0;  ///< iterations of Newton's method
 
   /// The product of the multipliers is 1, and this is their sum; below 2 in size the orbit is
   /// stable to first order.

@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 using Coefficients = std::vector<Complex>;
 
-/// One variable of the pair as a combination of two others.
+/// One variable of a pair as a linear combination of two others.
 struct Combination {
   Complex first;
   Complex second;

@@ -52,7 +52,7 @@ class RotationNormalForm {
     double angle = 0;
   };
   std::optional<Place> place_of(const std::array<double, 2>& pair) const;
-  /// The angle after so many returns.
+  /// The angle on a circle after a number of returns.
   double angle_after(const Circle& circle, double angle, double returns) const;
 
   /// The smallest of |1 - exp(2 pi i k rho)| over the divisors that occur: what is lost of the

@@ -17,6 +17,7 @@ void bind_orbit_keys(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);
 void bind_relative_motion(pybind11::module_& module);
 void bind_long_motion(pybind11::module_& module);
+void bind_plain_studies(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 void bind_polynomials(pybind11::module_& module);
 void bind_uncertainty(pybind11::module_& module);

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_hamjet, module) {
   hamjet::python::bind_runs(module);
   hamjet::python::bind_relative_motion(module);
   hamjet::python::bind_long_motion(module);
+  hamjet::python::bind_plain_studies(module);
   hamjet::python::bind_uncertainty(module);
   hamjet::python::bind_trajectory(module);
   hamjet::python::bind_polynomials(module);

@@ -12,50 +12,42 @@
 #include "formation/assignment_tables.hpp"
 #include "formation/deputy_motion_report.hpp"
 #include "formation/transfer_tables.hpp"
-#include "formation/validity_table.hpp"
-#include "periodic/periodic_report.hpp"
+#include "study_description.hpp"
 #include "uncertainty/moments_table.hpp"
 
 namespace hamjet::io {
-namespace {
 
-/// What all tables are declared with.
 Scene declaring_scene() {
   Scene scene;
   scene.order = 2;
+  scene.nominal.resize(6);
   return scene;
 }
 
-ValidityResult declared_validity() {
-  ValidityResult result;
-  result.scene = declaring_scene();
-  result.scene.validity.emplace();
-  return result;
-}
-
-TransferResult declared_transfers() {
+std::vector<TableView> declared_transfer() {
   TransferResult result;
   result.scene = declaring_scene();
   result.scene.transfer.emplace().times = {1};
-  return result;
+  return transfer_tables(result);
 }
 
-DeputyMotion declared_motion() {
+std::vector<TableView> declared_motion() {
   DeputyMotion motion;
   motion.scene = declaring_scene();
   motion.scene.deputy.emplace();
   motion.points.push_back({0, {}, {0, 0}, 0});
-  return motion;
+  return deputy_motion_tables(motion);
 }
 
-AssignmentResult declared_assignment() {
+std::vector<TableView> declared_assignment() {
   AssignmentResult result;
-  result.scene = declared_transfers().scene;
+  result.scene = declaring_scene();
+  result.scene.transfer.emplace().times = {1};
   result.scene.assignment.emplace();
-  return result;
+  return assignment_tables(result);
 }
 
-std::vector<TableView> declared_poincare() {
+std::vector<TableView> declared_frozen_orbit() {
   FrozenOrbitStudy study;
   study.scene = declaring_scene();
   study.state.resize(6);
@@ -77,13 +69,6 @@ std::vector<TableView> declared_bounded() {
   return bounded_tables(formation);
 }
 
-std::vector<TableView> declared_periodic() {
-  PeriodicStudy study{declaring_scene(), {}, {}};
-  study.scene.nominal.resize(6);
-  study.scene.periodic.emplace();
-  return periodic_tables(study);
-}
-
 std::vector<TableView> declared_uncertainty() {
   UncertaintyResult result;
   result.scene = declaring_scene();
@@ -101,6 +86,8 @@ std::vector<TableView> declared_uncertainty() {
   result.safety.emplace();
   return uncertainty_tables(result);
 }
+
+namespace {
 
 /// The column's names in CSV, where it is there.
 std::string csv_cell(const TableColumn& column) {
@@ -122,12 +109,8 @@ std::string cells_text(const TableView& table, const TableColumn& column) {
 
 std::vector<TableView> declared_tables() {
   std::vector<TableView> all;
-  for (std::vector<TableView> tables :
-       {deputy_motion_tables(declared_motion()), transfer_tables(declared_transfers()),
-        assignment_tables(declared_assignment()), validity_tables(declared_validity()),
-        declared_uncertainty(), declared_poincare(), declared_event(), declared_bounded(),
-        declared_periodic()}) {
-    for (TableView& table : tables) all.push_back(std::move(table));
+  for (const StudyDescription& study : study_descriptions()) {
+    for (TableView& table : study.declared()) all.push_back(std::move(table));
   }
   return all;
 }

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "../studies/arcs.hpp"
 #include "../studies/bounded/bounded_formation.hpp"
@@ -16,10 +19,15 @@
 #include "bounded/bounded_report.hpp"
 #include "bounded/event_report.hpp"
 #include "bounded/frozen_orbit_report.hpp"
+#include "declared_tables.hpp"
+#include "formation/assignment_tables.hpp"
 #include "formation/deputy_motion_report.hpp"
+#include "formation/transfer_tables.hpp"
+#include "formation/validity_table.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "periodic/periodic_report.hpp"
+#include "uncertainty/moments_table.hpp"
 #include "uncertainty/uncertainty_report.hpp"
 
 namespace hamjet::io {
@@ -31,18 +39,39 @@ bool has(const Scene& scene) {
   return (scene.*member).has_value();
 }
 
-/// A study and then its report.
-template <auto study, auto report>
-StudyReport done(const Scene& scene, const StudyWork& work) {
-  return report(study(scene, work.progress), work.origin);
+/// A study, with the functions that make report and tables of its result.
+template <auto study, auto report, auto tables>
+DoneStudy done(const Scene& scene, const StudyWork& work) {
+  auto result = study(scene, work.progress);
+  const auto kept = std::make_shared<const decltype(result)>(std::move(result));
+  return {[kept, origin = work.origin] { return report(*kept, origin); },
+          [kept] { return tables(*kept); }};
 }
 
-StudyReport uncertainty_done(const Scene& scene, const StudyWork& work) {
-  return uncertainty_report(study_uncertainty(scene, work.progress, work.threads), work.origin);
+DoneStudy uncertainty_done(const Scene& scene, const StudyWork& work) {
+  const auto kept = std::make_shared<const UncertaintyResult>(
+      study_uncertainty(scene, work.progress, work.threads));
+  return {[kept, origin = work.origin] { return uncertainty_report(*kept, origin); },
+          [kept] { return uncertainty_tables(*kept); }};
 }
 
 TransferResult transfers_of(const Scene& scene, const ProgressCallback& progress) {
   return study_transfer(scene, progress);
+}
+
+template <class Result>
+std::vector<TableView> tables_without_rows(std::vector<TableView> (*tables)(const Result&),
+                                           auto member) {
+  Result result;
+  result.scene = declaring_scene();
+  (result.scene.*member).emplace();
+  return tables(result);
+}
+
+/// The tables of a result that has nothing but the scene's table.
+template <auto member, auto tables>
+std::vector<TableView> declared() {
+  return tables_without_rows(tables, member);
 }
 
 bool is_zero(const RelativeState& state) {
@@ -65,7 +94,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "deputy",
      .smallest = "position_m = [0, -1000, 0]",
      .has_table = &has<&Scene::deputy>,
-     .report = &done<&study_deputy_motion, &deputy_motion_report>,
+     .study = &done<&study_deputy_motion, &deputy_motion_report, &deputy_motion_tables>,
+     .declared = &declared_motion,
      .notes_escape = true},
     {.command = "transfer",
      .purpose = "velocity changes from one relative position to another, for every time",
@@ -75,7 +105,8 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "times_s = [1200, 1800], start = {position_m = [0, -1000, 0]}, "
                  "end = {position_m = [0, -100, 0]}",
      .has_table = &has<&Scene::transfer>,
-     .report = &done<&transfers_of, &flown_transfer_report>,
+     .study = &done<&transfers_of, &flown_transfer_report, &transfer_tables>,
+     .declared = &declared_transfer,
      .notes_escape = true,
      .lack = &lack_of_transfer},
     {.command = "validity",
@@ -85,7 +116,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "validity",
      .smallest = "tolerance_m = 1, count = 12",
      .has_table = &has<&Scene::validity>,
-     .report = &done<&study_validity, &validity_report>},
+     .study = &done<&study_validity, &validity_report, &validity_tables>,
+     .declared = &declared<&Scene::validity, &validity_tables>},
     {.command = "uncertainty",
      .purpose = "how the covariance of the start grows: moments of every order along time",
      .files = "report.html, moments.csv and summary.json",
@@ -93,7 +125,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "uncertainty",
      .smallest = "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]",
      .has_table = &has<&Scene::uncertainty>,
-     .report = &uncertainty_done},
+     .study = &uncertainty_done,
+     .declared = &declared_uncertainty},
     {.command = "assign",
      .purpose = "send deputies to slots at the least total velocity change",
      .files = "assignment.csv, costs.csv, pairs.csv and summary.json",
@@ -101,7 +134,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "assignment",
      .smallest = "deputy = [{position_m = [0, -100, 0]}], slot = [{position_m = [0, 100, 0]}]",
      .has_table = &has<&Scene::assignment>,
-     .report = &done<&study_assignment, &assignment_report>,
+     .study = &done<&study_assignment, &assignment_report, &assignment_tables>,
+     .declared = &declared_assignment,
      .notes_escape = true},
     {.command = "poincare",
      .purpose = "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
@@ -111,10 +145,12 @@ constexpr StudyDescription descriptions[] = {
      .table = "event",
      .smallest = "surface = \"equator\"",
      .has_table = &has<&Scene::event>,
-     .report = &done<&study_event, &event_report>},
+     .study = &done<&study_event, &event_report, &event_tables>,
+     .declared = &declared_event},
     {.command = "poincare",
      .has_table = [](const Scene&) { return true; },
-     .report = &done<&study_frozen_orbit, &frozen_orbit_report>},
+     .study = &done<&study_frozen_orbit, &frozen_orbit_report, &poincare_tables>,
+     .declared = &declared_frozen_orbit},
     {.command = "bounded",
      .purpose = "deputies that stay with the chief for long without fuel",
      .files = "report.html, bounded.csv, box.csv of a box, summary.json",
@@ -122,7 +158,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "bounded",
      .smallest = "sizes_km = [1, 10]",
      .has_table = &has<&Scene::bounded>,
-     .report = &done<&study_bounded, &bounded_report>},
+     .study = &done<&study_bounded, &bounded_report, &bounded_tables>,
+     .declared = &declared_bounded},
     {.command = "periodic",
      .purpose = "periodic orbits near the nominal, their multipliers, and their families",
      .files = "report.html, periodic.csv and summary.json",
@@ -130,7 +167,8 @@ constexpr StudyDescription descriptions[] = {
      .table = "periodic",
      .smallest = "hold = \"energy\"",
      .has_table = &has<&Scene::periodic>,
-     .report = &done<&study_periodic, &periodic_report>},
+     .study = &done<&study_periodic, &periodic_report, &periodic_tables>,
+     .declared = &declared<&Scene::periodic, &periodic_tables>},
 };
 
 }  // namespace

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "../store/table_view.hpp"
 #include "hamjet/detail/report/report_origin.hpp"
 #include "hamjet/detail/report/study_report.hpp"
 #include "hamjet/detail/studies/progress.hpp"
@@ -21,8 +23,15 @@ struct StudyWork {
   std::size_t threads = 1;
 };
 
+/// A study that has been done. Report and tables are made of its result when they are asked for.
+struct DoneStudy {
+  std::function<StudyReport()> report;
+  std::function<std::vector<TableView>()> tables;  ///< the study's own first
+};
+
 /// All that the program knows of a study that works on a table of a scene. Commands, their help and
-/// completion, sweeps, `hamjet check` and the Python module read it; nothing else lists studies.
+/// completion, sweeps, `hamjet check`, the page of columns and the Python module read it; nothing
+/// else lists studies.
 struct StudyDescription {
   std::string_view command = {};   ///< `hamjet <command>`, and the end of the name of its results
   std::string_view purpose = {};   ///< the command's line of help
@@ -31,8 +40,10 @@ struct StudyDescription {
   std::string_view table = {};     ///< the key of the table that it works on; empty: none
   std::string_view smallest = {};  ///< what the smallest such table holds, in one line
   bool (*has_table)(const Scene& scene) = nullptr;
-  /// The study and its report. Throws what the study throws.
-  StudyReport (*report)(const Scene& scene, const StudyWork& work) = nullptr;
+  /// Does the study. Throws what the study throws.
+  DoneStudy (*study)(const Scene& scene, const StudyWork& work) = nullptr;
+  /// The tables of a result without rows, as the page of columns has them.
+  std::vector<TableView> (*declared)() = nullptr;
   /// Whether deputies may leave flow boxes for orbits that are not bound, of which users are told.
   bool notes_escape = false;
   /// What the table lacks for this study though it is there, as `key: problem`; null: nothing.

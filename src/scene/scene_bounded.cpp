@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene_relative_motion.hpp"
+#include "tables_of_studies.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -37,7 +38,7 @@ const TableDescription& box_table() {
         "times that a return may take, in the chief's nodal periods; the cheapest of those that "
         "stay inside is flown"},
        {"days", form::between(shortest_days, longest_days), absent::value(preset.days),
-        "for which the deputy is kept"}},
+        "number of days for which the deputy is kept"}},
       "A box in which the scene's `[deputy]` is kept by two impulses each time that it leaves; "
       "without a deputy one that starts as the reference."};
   return table;
@@ -72,16 +73,14 @@ BoxSettings read_box(const TableReader& box) {
   return settings;
 }
 
-}  // namespace
-
 const TableDescription& bounded_table() {
   static const BoundedSettings preset;
   static const TableDescription table = {
       {{"sizes_km", form::array(form::positive()), absent::value(default_sizes_km()),
         "largest distances from the chief over the first revolution; a deputy of each"},
        {"phase_deg", form::number(), absent::value(preset.phase_deg),
-        "of the difference of the eccentricity vectors: at 0 the eccentricity grows, at 90 the "
-        "pericentre turns ahead"},
+        "direction of the difference of the eccentricity vectors: at 0 the eccentricity grows, at "
+        "90 the pericentre turns ahead"},
        {"cross_track", form::between(-largest_part, largest_part),
         absent::value(preset.cross_track),
         "what the node's difference takes it across the chief's plane, in parts of the size"},
@@ -89,9 +88,11 @@ const TableDescription& bounded_table() {
         "how far it is ahead of the chief in the mean, in parts of the size"},
        {"revolutions", form::integer(fewest_revolutions, most_revolutions),
         absent::value(preset.revolutions),
-        "over which mean periods and drifts of the node are the chief's; all are flown so long"},
+        "number of revolutions over which mean periods and drifts of the node are the chief's; all "
+        "deputies are flown so long"},
        {"refine", form::boolean(), absent::value(preset.refine),
-        "also correct the polynomials' deputies by flying, until the flown means are the chief's"},
+        "whether to correct the polynomials' deputies by flying too, until the flown means are the "
+        "chief's"},
        {"box", form::table(box_table()), absent::other("no box"), "stationkeeping"}},
       "Deputies that stay with the chief for long without fuel."};
   return table;
@@ -126,6 +127,18 @@ BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene) {
   if (bounded.has("refine")) settings.refine = bounded.boolean("refine");
   if (bounded.has("box")) settings.box = read_box(bounded.table("box"));
   return settings;
+}
+
+}  // namespace
+
+TableOfStudy bounded_of_scenes() {
+  return {.name = "bounded",
+          .description = &bounded_table,
+          .absence = "none",
+          .help = "what `hamjet bounded` works on",
+          .read = [](const TableReader& table, Scene& scene, const Nominal&) {
+            scene.bounded = read_bounded(table, scene);
+          }};
 }
 
 }  // namespace hamjet::io

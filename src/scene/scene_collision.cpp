@@ -34,7 +34,7 @@ const TableDescription& collision_table() {
        {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
         "of the polynomials"},
        {"confidence", form::between(0.5, 0.999999), absent::value(preset.confidence),
-        "of the interval that is given"}},
+        "confidence of the interval that is given"}},
       "Whether chief and deputy may hit each other; both have polynomials of their own."};
   return table;
 }
@@ -69,7 +69,7 @@ std::array<double, 2> read_window(const TableReader& table, const Scene& scene) 
 
 SceneKey window_key(std::string_view absence) {
   return {"window_s", form::array(form::number(), 2), absent::other(std::string(absence)),
-          "from when to when after the start, of which the first is before the second"};
+          "begin and end of the window after the start, the first before the second"};
 }
 
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene) {

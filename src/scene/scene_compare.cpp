@@ -61,23 +61,24 @@ const TableDescription& compare_table() {
       {{"methods", form::array(form::choice(method_names())),
         absent::other("the usual ones of this build"), "each once"},
        {"stages", form::array(form::integer(1, most_gauss_stages)), absent::value(preset.stages),
-        "of Gauss"},
+        "stages of the Gauss methods"},
        {"steps_canonical", form::array(form::positive()),
         absent::other("halved from far too coarse to round-off"),
-        "of the methods with fixed steps"},
+        "steps of the methods with fixed steps"},
        {"tolerances", form::array(form::between(least_tolerance, greatest_tolerance)),
-        absent::other("by powers of ten from 1e-2 to round-off"), "of the adaptive methods"},
+        absent::other("by powers of ten from 1e-2 to round-off"),
+        "tolerances of the adaptive methods"},
        {"orders",
         form::words("array of integers from 1 to `jet.order`",
                     form::array(form::integer(1, largest_order))),
-        absent::other("1 to `jet.order`"), "of the cost against order"},
+        absent::other("1 to `jet.order`"), "orders for the curve of cost against order"},
        {"repeats", form::integer(1, most_repeats), absent::value(preset.repeats),
         "timings of each run, in turns"},
        {"time_budget_s", form::positive(), absent::value(preset.time_budget_s),
         "of the runs that are compared, with their repeats; what would exceed it is left out, and "
         "said. Reference, errors along time and fits of orders come on top"},
        {"wanted_error_m", form::positive(), absent::value(preset.wanted_error_m),
-        "at the separation of `[formation]`, for the verdict and the advice"}}};
+        "error at the separation of `[formation]` that verdict and advice refer to"}}};
   return table;
 }
 

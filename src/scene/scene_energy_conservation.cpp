@@ -47,7 +47,7 @@ const TableDescription& energy_conservation_table() {
   const auto other_duration = absent::other("another duration");
   static const TableDescription table = {
       {{"method", form::choice(energy_conserving_method_names()), absent::refused(),
-        "in its energy-conserving form"},
+        "the method, in its energy-conserving form"},
        {"first_step_canonical", form::positive(), absent::other("`first_step_s`"),
         "at most the duration; the other steps follow from the energy"},
        {"first_step_s", form::positive(), absent::other("`first_step_canonical`"), "the same"},
@@ -57,7 +57,11 @@ const TableDescription& energy_conservation_table() {
         absent::value(energy_conservation_outcome_names()[0]), "another outcome is exit code 1"},
        {"require_energy_error", form::positive(), absent::other("no check"),
         "largest relative error of the discrete energy"},
-       {"duration_orbits", form::number(), other_duration, "in periods of the nominal", {orbits}}}};
+       {"duration_orbits",
+        form::number(),
+        other_duration,
+        "the same in periods of the nominal",
+        {orbits}}}};
   return table;
 }
 

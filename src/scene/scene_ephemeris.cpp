@@ -106,21 +106,21 @@ const TableDescription& ephemeris_table() {
   const auto epoch = form_of_epoch();
   const auto text = form::words("1 to 80 characters of ASCII");
   static const TableDescription table = {
-      {{"epoch", epoch, of_file, "of the nominal's start, in the time system"},
-       {"time_system", form::choice(time_system_names()), of_file, "of all epochs"},
+      {{"epoch", epoch, of_file, "epoch of the nominal's start, in the time system"},
+       {"time_system", form::choice(time_system_names()), of_file, "time system of all epochs"},
        {"reference_frame", text, of_file,
         "inertial, with the z axis along the axis of the zonal field"},
        {"reference_frame_epoch", epoch,
-        absent::other("required by a frame that ends with `OFEPOCH`"), "of the frame"},
+        absent::other("required by a frame that ends with `OFEPOCH`"), "epoch of the frame"},
        {"center_name", text, of_file, "the centre of attraction, for example `EARTH`"},
-       {"object_name", text, absent::value(preset.object_name), "of the nominal"},
+       {"object_name", text, absent::value(preset.object_name), "name of the nominal's object"},
        {"object_id", text, absent::value(preset.object_id), "its international designator"},
        {"deputy_name", text, absent::value(preset.deputy_name),
-        "of the spacecraft that flies relative to the nominal"},
+        "name of the spacecraft that flies relative to the nominal"},
        {"deputy_id", text, absent::value(preset.deputy_id), "its international designator"},
        {"originator", text, absent::value(preset.originator), "who made the message"},
        {"oem_version", form::words("2.0 or 3.0", form::number()), absent::other("2.0"),
-        "of the messages that are written"}},
+        "version of the messages that are written"}},
       "What the nominal's file says need not be said again, and cannot be changed."};
   return table;
 }

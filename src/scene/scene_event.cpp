@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "scene_relative_motion.hpp"
+#include "tables_of_studies.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -15,8 +16,6 @@ void refuse(const TableReader& event, std::string_view key, std::string_view sur
                               event.found(key), surface));
 }
 
-}  // namespace
-
 const TableDescription& event_table() {
   static const EventSettings preset;
   static const TableDescription table = {
@@ -26,16 +25,16 @@ const TableDescription& event_table() {
         "position and velocity (a pericentre where it rises, an apocentre where it falls)"},
        {"normal", form::array(form::number(), 3),
         absent::other("required with `plane`, refused without"),
-        "of the plane, x, y, z of the nominal's axes; of any length"},
+        "normal of the plane, x, y, z of the nominal's axes; of any length"},
        {"offset_km", form::number(), absent::value(preset.offset_km),
-        "of the plane from the centre, along its normal"},
+        "distance of the plane from the centre, along its normal"},
        {"distance_km", form::positive(), absent::other("required with `distance`, refused without"),
-        "from the centre"},
+        "distance from the centre"},
        {"direction", form::choice({"either", "rising", "falling"}), absent::value("either"),
         "whether the height, the distance less `distance_km` or the product grows or falls with "
         "time at the event"},
        {"number", form::integer(1, most_events), absent::value(preset.number),
-        "which of these events of the chief after its start, within `jet.duration`"},
+        "number of the event, counted after the chief's start, within `jet.duration`"},
        {"amplitudes_m", form::array(form::positive()), absent::value(preset.amplitudes_m),
         "distances from the chief of deputies that are flown to see how far the polynomials hold; "
         "their velocities differ by as much times the mean motion"}},
@@ -86,6 +85,18 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
                                    amplitude, most_m));
   }
   return settings;
+}
+
+}  // namespace
+
+TableOfStudy event_of_scenes() {
+  return {.name = "event",
+          .description = &event_table,
+          .absence = "none, and the frozen orbit is found",
+          .help = "what `hamjet poincare` works on",
+          .read = [](const TableReader& table, Scene& scene, const Nominal&) {
+            scene.event = read_event(table, scene);
+          }};
 }
 
 }  // namespace hamjet::io

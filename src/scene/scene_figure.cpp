@@ -11,7 +11,7 @@ const TableDescription& figure_table() {
                                           {"kind",
                                            form::words("a kind but `\"auto\"`"),
                                            absent::value("F1"),
-                                           "of which generating function",
+                                           "kind of the generating function",
                                            {"exactness"}}}};
   return table;
 }

@@ -88,7 +88,7 @@ TableDescription describe_integrators() {
                                 "result file",
                                 longest_label)),
         absent::other("the method, with stages or order where it has several forms"),
-        "the name of its folder, unlike the others"},
+        "name of the run and of its folder; no other run has it"},
        {"method", form::choice(method_names()), absent::refused(),
         "see `hamjet list integrators`"}}};
   const auto add = [&](const MethodSetting& setting) {
@@ -104,7 +104,7 @@ TableDescription describe_integrators() {
   return {joined<SceneKey>(
       {table.keys,
        {{"step_canonical", form::positive(), other_size, "fixed steps, at most 1e8", steps},
-        {"step_s", form::positive(), other_size, "likewise", steps},
+        {"step_s", form::positive(), other_size, "the same in seconds", steps},
         {"tolerance",
          form::words(fmt::format("number from {} (extended: {}) to {}", least_tolerance,
                                  least_extended_tolerance, greatest_tolerance),

@@ -164,19 +164,19 @@ const TableDescription& jet_table() {
             {"coordinates",
              form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
              absent::value("cartesian"),
-             "of the polynomials that predict deputies: `flow-box` (time and energy) reaches "
-             "furthest, `auto` measures which does",
+             "coordinates of the polynomials that predict deputies: `flow-box` (time and energy) "
+             "reaches furthest, `auto` measures which does",
              {orbits}},
             {"end_coordinates",
              form::choice({jet_coordinates_names.begin(), jet_coordinates_names.end()}),
              absent::other("as `coordinates`"),
-             "of their results, where others than at the start; `flow-box` and `auto` are of both "
-             "ends",
+             "coordinates of the polynomials' results, where these are others than at the start; "
+             "`flow-box` and `auto` are for both ends",
              {orbits}},
             {"duration_orbits",
              form::number(),
              other_duration,
-             "in periods of the nominal",
+             "the same in periods of the nominal",
              {orbits}}},
            times}),
       "At the times, one integration by `gauss` writes further jets, into a folder each, which "

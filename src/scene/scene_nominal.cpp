@@ -108,15 +108,18 @@ const TableDescription& nominal_table() {
   const std::vector<std::string_view> own = {description_of(SystemModel::own).name};
   const auto of_model = form::words("array of n numbers", form::array(form::number()));
   static const TableDescription table = {
-      joined<SceneKey>(
-          {orbit_keys({orbits}),
-           epoch_keys(),
-           {{"position_m", of_model, absent::refused(), "of each degree of freedom", other},
-            {"momentum_kg_m_s", of_model, absent::refused(), "likewise", other},
-            {"coordinates", of_model, absent::other("`states`"), "in the system's own units", own},
-            {"momenta", of_model, absent::other("`states`"), "likewise", own},
-            {"states", of_model, absent::other("`coordinates` and `momenta`"),
-             "of a vector field, in the system's own units", own}}}),
+      joined<SceneKey>({orbit_keys({orbits}),
+                        epoch_keys(),
+                        {{"position_m", of_model, absent::refused(),
+                          "coordinate of each degree of freedom", other},
+                         {"momentum_kg_m_s", of_model, absent::refused(),
+                          "momentum of each degree of freedom", other},
+                         {"coordinates", of_model, absent::other("`states`"),
+                          "coordinates, in the system's own units", own},
+                         {"momenta", of_model, absent::other("`states`"),
+                          "momenta, in the system's own units", own},
+                         {"states", of_model, absent::other("`coordinates` and `momenta`"),
+                          "states of a vector field, in the system's own units", own}}}),
       "An orbit has one of three forms: position and velocity, osculating elements, or the file of "
       "a message, whose path is relative to the scene's folder. Elements are size and shape "
       "(`a_km` "

@@ -96,7 +96,7 @@ const TableDescription& optimal_control_table() {
        {"costate_guess", states, absent::other("of the right size"), "a first initial costate"},
        {"shooting_intervals",
         form::words("integer from 1 to `steps`", form::integer(1, most_steps)),
-        absent::value(preset.shooting_intervals), "of multiple shooting"},
+        absent::value(preset.shooting_intervals), "number of intervals of multiple shooting"},
        {"require_cost_error", form::positive(), absent::other("no check"),
         "largest relative difference from the closed form, where there is one"},
        {"require_equivalence", form::positive(), absent::other("no check"),

@@ -48,12 +48,13 @@ std::vector<SceneKey> orbit_keys(const std::vector<std::string_view>& owners) {
   return joined<SceneKey>(
       {{{"position_km", form::array(form::number(), 3), other_form, "x, y, z from the centre",
          owners},
-        {"velocity_km_s", form::array(form::number(), 3), other_form, "their rates", owners}},
+        {"velocity_km_s", form::array(form::number(), 3), other_form,
+         "velocity along the same axes", owners}},
        element_keys(owners),
        {{"oem_file", form::text(), other_form, "an orbit ephemeris message of CCSDS", owners},
         {"opm_file", form::text(), other_form, "an orbit parameter message of CCSDS", owners},
         {"epoch", form_of_epoch(), absent::other("the first of the file"),
-         "of the state to take; nothing is interpolated", owners},
+         "epoch of the state to take; nothing is interpolated", owners},
         {"object", form::text(), absent::other("the only one of the file"),
          "name or identifier of the object to take", owners}}});
 }

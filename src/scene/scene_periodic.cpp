@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene_relative_motion.hpp"
+#include "tables_of_studies.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -62,9 +63,10 @@ const TableDescription& family_table() {
       {{"along", form::text(), absent::refused(),
         "what the family runs along: `energy`, `period`, a variable of the start by its name, or "
         "`parameters.NAME` of a system of one's own, where `hold` is held"},
-       {"to", form::number(), absent::refused(), "its value at the last orbit, canonical"},
+       {"to", form::number(), absent::refused(),
+        "value of that quantity at the last orbit, canonical"},
        {"step", form::positive(), absent::other("a twentieth of the way"),
-        "of it between orbits, canonical; shorter where the family bends"},
+        "step of that quantity between orbits, canonical; shorter where the family bends"},
        {"members", form::integer(2, most_members), absent::value(preset.members),
         "the most orbits; a family that folds back may never come to `to`"}},
       "A family of periodic orbits, by pseudo-arclength continuation from the first."};
@@ -83,8 +85,6 @@ PeriodicFamilySettings read_family(const TableReader& table, const Scene& scene)
   return family;
 }
 
-}  // namespace
-
 const TableDescription& periodic_table() {
   static const PeriodicSettings preset;
   static const TableDescription table = {
@@ -93,12 +93,13 @@ const TableDescription& periodic_table() {
        {"hold", form::text(), absent::value(preset.hold),
         "what picks the orbit: `energy`, `period`, or a variable of the start by its name"},
        {"value", form::number(), absent::other("that of the nominal, or of the guess"),
-        "at which it is held, canonical"},
+        "value at which that quantity is held, canonical"},
        {"arcs", form::integer(1, most_shooting_arcs), absent::value(preset.arcs),
-        "of multiple shooting; more for orbits that are very unstable"},
+        "number of arcs of multiple shooting; more for orbits that are very unstable"},
        {"tolerance", form::between(1e-13, 1e-3), absent::value(preset.tolerance),
-        "of the arcs' mismatch, in parts of the orbit's size; a larger one is no orbit"},
-       {"family", form::table(family_table()), absent::other("one orbit"), "of orbits"}},
+        "largest mismatch of the arcs that still makes an orbit, in parts of the orbit's size"},
+       {"family", form::table(family_table()), absent::other("one orbit"),
+        "the family that the orbit is in"}},
       "A periodic orbit near the nominal, with its multipliers, and the family that it is in."};
   return table;
 }
@@ -135,6 +136,18 @@ PeriodicSettings read_periodic(const TableReader& periodic, const Scene& scene,
   periodic.read_if_any("tolerance", settings.tolerance);
   if (periodic.has("family")) settings.family = read_family(periodic.table("family"), scene);
   return settings;
+}
+
+}  // namespace
+
+TableOfStudy periodic_of_scenes() {
+  return {.name = "periodic",
+          .description = &periodic_table,
+          .absence = "none",
+          .help = "what `hamjet periodic` works on",
+          .read = [](const TableReader& table, Scene& scene, const Nominal& nominal) {
+            scene.periodic = read_periodic(table, scene, nominal);
+          }};
 }
 
 }  // namespace hamjet::io

@@ -10,6 +10,7 @@
 #include "scene_relative_motion.hpp"
 #include "systems/scene_earth.hpp"
 #include "systems/scene_own_system.hpp"
+#include "tables_of_studies.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -118,10 +119,9 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   root.attempt([&] { require_splittable(root.table("jet"), scene); });
   read_table("validity",
              [&](const auto& table) { scene.validity = read_validity(table, scene, nominal); });
-  read_table("bounded", [&](const auto& table) { scene.bounded = read_bounded(table, scene); });
-  read_table("event", [&](const auto& table) { scene.event = read_event(table, scene); });
-  read_table("periodic",
-             [&](const auto& table) { scene.periodic = read_periodic(table, scene, nominal); });
+  for (const TableOfStudy& study : tables_of_studies()) {
+    read_table(study.name, [&](const auto& table) { study.read(table, scene, nominal); });
+  }
   const bool has_deputy = read_table("deputy", [&](const auto& table) {
     scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
   });
@@ -160,9 +160,16 @@ double read_canonical_radius(const TableReader& system, const SystemSettings& se
 }
 
 const TableDescription& formation_table() {
-  static const TableDescription table = {
-      {{"separation_km", form::positive(), absent::refused(), "of the deviations", {orbits}},
-       {"separation_m", form::positive(), absent::refused(), "of the deviations", {other_models}}}};
+  static const TableDescription table = {{{"separation_km",
+                                           form::positive(),
+                                           absent::refused(),
+                                           "separation of the deviations",
+                                           {orbits}},
+                                          {"separation_m",
+                                           form::positive(),
+                                           absent::refused(),
+                                           "separation of the deviations",
+                                           {other_models}}}};
   return table;
 }
 
@@ -176,7 +183,7 @@ const TableDescription& reference_table() {
 const TableDescription& relative_hamiltonian_table() {
   static const TableDescription table = {
       {{"times_canonical", form::array(form::number()), absent::refused(),
-        "from 0 to the duration, moving away from 0"}}};
+        "times from 0 to the duration, moving away from 0"}}};
   return table;
 }
 

@@ -56,16 +56,16 @@ std::vector<SceneKey> transfer_time_keys(const Absence& absence) {
   const auto times = form::words(
       fmt::format("number, or array of at most {}, not 0", most_transfer_times), form::number());
   return {{"times_s", times, absence, "moving away from 0"},
-          {"times_orbits", times, absence, "in periods of the nominal"},
+          {"times_orbits", times, absence, "the same in periods of the nominal"},
           {"times_canonical", times, absence, "moving away from 0"},
           {"count", form::integer(1, most_transfer_times), absence,
-           "so many equal parts of the duration"}};
+           "number of equal parts of the duration"}};
 }
 
 std::vector<SceneKey> instant_keys() {
   const auto absence = absent::other("another of these three");
   return {{"time_s", form::number(), absence, "since the start"},
-          {"time_orbits", form::number(), absence, "in periods of the nominal"},
+          {"time_orbits", form::number(), absence, "the same in periods of the nominal"},
           {"time_canonical", form::number(), absence, "since the start"}};
 }
 

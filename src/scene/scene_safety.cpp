@@ -14,7 +14,8 @@ constexpr std::size_t most_safe_deputies = 20;
 
 const TableDescription& safe_deputy_table() {
   static const TableDescription table = {
-      relative_state_keys(), "In the frame of `[deputy]`, known as well as it, without a burn."};
+      relative_state_keys(),
+      "A further deputy, in the frame of `[deputy]` and as uncertain as that; it does not burn."};
   return table;
 }
 
@@ -53,12 +54,12 @@ const TableDescription& safety_table() {
         "how much of the burn of `[uncertainty.burn]` is done, each a case: 0 not at all, 1 with "
         "its errors"},
        {"share", form::between(0.5, 0.9999), absent::value(preset.share),
-        "of all cases: the least separation that these keep is told"},
+        "share of all cases whose least separation is given"},
        {"samples", form::integer(fewest_path_samples, most_path_samples),
         absent::value(preset.samples),
-        "of the polynomials, for each pair and each share of the burn"},
+        "number of samples of the polynomials, for each pair and each share of the burn"},
        {"confidence", form::between(0.5, 0.999999), absent::value(preset.confidence),
-        "of the intervals that are given"},
+        "confidence of the intervals that are given"},
        {"least_separation_m", form::positive(), absent::other("not checked"),
         "a check of every pair: the separation that `share` of all cases must keep, by the lower "
         "end of its interval; exit code 1 where one does not"},

@@ -248,16 +248,6 @@ SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nom
 UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene,
                                      const Nominal& nominal);
 
-/// Table `[bounded]`, checked against the parts of `scene` that have been read.
-BoundedSettings read_bounded(const TableReader& bounded, const Scene& scene);
-
-/// Table `[event]`, checked against the parts of `scene` that have been read.
-EventSettings read_event(const TableReader& event, const Scene& scene);
-
-/// Table `[periodic]`, checked against the parts of `scene` that have been read.
-PeriodicSettings read_periodic(const TableReader& periodic, const Scene& scene,
-                               const Nominal& nominal);
-
 /// The reason why the energy-conserving methods integrate no flow jet, for messages.
 inline constexpr std::string_view no_energy_conserving_jet =
     "the map of an energy-conserving method at a fixed physical time is not symplectic, because "

@@ -12,6 +12,7 @@
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
 #include "systems/scene_earth.hpp"
+#include "tables_of_studies.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -42,6 +43,14 @@ std::vector<SceneKey> start_keys() {
       required_table("nominal", nominal_table(), "the initial state")};
 }
 
+std::vector<SceneKey> keys_of_studies() {
+  std::vector<SceneKey> keys;
+  for (const TableOfStudy& study : tables_of_studies()) {
+    keys.push_back(optional_table(study.name, study.description(), study.absence, study.help));
+  }
+  return keys;
+}
+
 TableDescription flow_jet_top() {
   constexpr std::string_view none = "none";
   return {joined<SceneKey>(
@@ -63,23 +72,24 @@ TableDescription flow_jet_top() {
         optional_table("relative_hamiltonian", relative_hamiltonian_table(), none,
                        "Taylor coefficients of H about the nominal"),
         optional_table("checks", checks_table(), "all on", "self-checks"),
-        optional_table("compare", compare_table(), "the defaults", "of `hamjet compare`"),
+        optional_table("compare", compare_table(), "the defaults", "what `hamjet compare` tries"),
         optional_table("figure", figure_table(), none, "`figure.svg`, with its numbers in CSV"),
         optional_table("spacecraft", spacecraft_table(), "no drag, no radiation",
                        "what air and light do to the chief"),
-        optional_table("deputy", deputy_table(), none, "of `hamjet motion`, `transfer` and `eval`"),
-        optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
-        optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),
-        optional_table("assignment", assignment_table(), none, "of `hamjet assign`"),
-        optional_table("uncertainty", uncertainty_table(), none, "of `hamjet uncertainty`"),
-        optional_table("bounded", bounded_table(), none, "of `hamjet bounded`"),
-        optional_table("event", event_table(), "none, and the frozen orbit is found",
-                       "of `hamjet poincare`"),
-        optional_table("periodic", periodic_table(), none, "of `hamjet periodic`"),
-        optional_table("output", output_table(), "CSV and JSON", "further files of results"),
+        optional_table("deputy", deputy_table(), none,
+                       "the second spacecraft, for `hamjet motion`, `transfer` and `eval`"),
+        optional_table("transfer", transfer_table(), none,
+                       "what `hamjet transfer` and `assign` work on"),
+        optional_table("validity", validity_table(), none,
+                       "what `hamjet validity` works on, and `transfer` too"),
+        optional_table("assignment", assignment_table(), none, "what `hamjet assign` works on"),
+        optional_table("uncertainty", uncertainty_table(), none,
+                       "what `hamjet uncertainty` works on")},
+       keys_of_studies(),
+       {optional_table("output", output_table(), "CSV and JSON", "further files of results"),
         optional_table("ephemeris", ephemeris_table(), "of the nominal's file",
                        "what dates an orbit"),
-        optional_table("case", case_table(), none, "of `hamjet stability`"),
+        optional_table("case", case_table(), none, "what `hamjet stability` works on"),
         study_key}})};
 }
 
@@ -149,7 +159,8 @@ Study read_tables(const TableReader& root, std::size_t study, SceneUnits units) 
 const std::vector<SceneKey>& head_keys() {
   static const std::vector<SceneKey> keys = {
       {"schema", form::integer(1, 1), absent::value(1), "version of this format"},
-      {"title", form::text(), absent::other("the file's name without `.toml`"), "of the results"}};
+      {"title", form::text(), absent::other("the file's name without `.toml`"),
+       "title of the results"}};
   return keys;
 }
 

@@ -113,7 +113,7 @@ Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSetting
   // Along inertial axes only the flight shows whether an end lies in the ellipsoid.
   if (!has_ends || settings.frame == RelativeFrame::inertial) return semi_axes;
   for (const bool is_start : {true, false}) {
-    // For other forms of the end, too, only the flight shows it.
+    // Only the flight shows whether an end of another form lies in the ellipsoid.
     if (!is_start && !settings.end.is_along_axes()) continue;
     const RelativeState& state = is_start ? settings.start : settings.end;
     if (state.position_m.cwiseQuotient(semi_axes).norm() >= 1) continue;
@@ -227,21 +227,23 @@ const TableDescription& transfer_table() {
        {{"kind", form::words("kind of three degrees of freedom"), absent::value(preset.kind),
          "`auto` is the one whose inverted block changes least over the transfer"},
         {"tolerance_m", form::positive(), absent::value(preset.tolerance_m),
-         "a larger miss of the highest order is marked"},
+         "a transfer whose highest order misses by more than this is marked"},
         {"refine", form::boolean(), absent::value(preset.refine),
-         "correct all by flying, not only those that miss by more than the tolerance"},
+         "whether to correct all transfers by flying, not only those that miss by more than the "
+         "tolerance"},
         {"refined_miss_m", form::positive(), absent::value(preset.refined_miss_m),
-         "until the miss is below this"},
+         "a correction goes on until the miss is below this"},
         {"singular_margin_s", margin, absent::other("`singular_margin_orbits`"),
-         "nearer to a singular time is marked"},
+         "a transfer nearer than this to a singular time is marked"},
         {"singular_margin_orbits", margin, absent::value(default_revolutions),
-         "likewise, in periods of the nominal"},
+         "the same in periods of the nominal"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
-         "also the least velocity change with as many impulses, at such times, as it takes"},
+         "optimal: also the least velocity change by any number of impulses at any times"},
         {"thrust", form::choice({"impulses", "energy-optimal"}), absent::value("impulses"),
-         "also the thrust that lasts, with the least integral of its squared acceleration"},
+         "energy-optimal: also the thrust that lasts, with the least integral of its squared "
+         "acceleration"},
         {"thrust_order", form::integer(1, 4), absent::value(preset.thrust_order),
-         "of its polynomials in states and costates"},
+         "order of that thrust's polynomials in states and costates"},
         {"largest_thrust_m_s2", form::positive(), absent::other("any"),
          "transfers whose thrust is at some time larger are marked, and not the least"},
         {"budget_m_s", form::positive(), absent::other("none is looked for"),
@@ -258,12 +260,11 @@ const TableDescription& transfer_table() {
          form::words(fmt::format("array of integers from -{0} to {0}", most_revolutions),
                      form::array(form::integer(-most_revolutions, most_revolutions))),
          absent::other("none"),
-         "also transfers of so many whole revolutions more than the chief's, from Lambert's "
-         "problem; "
-         "0 is the other orbit of as many"},
+         "also transfers that make so many whole revolutions more than the chief, from Lambert's "
+         "problem; 0 is the other orbit that makes as many"},
         {"longest_coast_s", form::positive(), absent::other("the first impulse is at the start"),
-         "also the least of two impulses whose first one may wait so long while the deputy drifts; "
-         "optimal impulses may wait in any case"},
+         "also the least sum of two impulses of which the first may wait so long while the deputy "
+         "drifts; optimal impulses may wait in any case"},
         {"waypoint", form::words("tables", form::array(form::table(waypoint_table()))),
          absent::other("none"),
          "places on the way: also transfers through all of them, with an impulse at each"},

@@ -47,7 +47,7 @@ std::vector<SceneKey> state_uncertainty_keys() {
            "standard deviations along the axes of the frame"},
           {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),
            absent::other("another form of the covariance"),
-           "of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"},
+           "covariance of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"},
           {"file", form::words("path of an OEM, OPM or CDM"),
            absent::other("another form of the covariance"),
            "whose covariance of the chief's moment is taken, in its own frame: RTN (also RSW, QSW, "
@@ -94,13 +94,14 @@ const TableDescription& deputy_uncertainty_table() {
 
 const TableDescription& burn_table() {
   static const TableDescription table = {
-      joined<SceneKey>({covariance_frame_keys(absent::other("of `[uncertainty]`")),
-                        {{"velocity_change_m_s", form::array(form::number(), 3), absent::refused(),
-                          "of the burn that ends at the start, whose state is the one after it"},
-                         {"magnitude", form::between(0, 1), absent::other("0"),
-                          "standard deviation of its size, as a share of it"},
-                         {"direction_deg", form::between(0, 90), absent::other("0"),
-                          "standard deviation about each of the two axes across it"}}}),
+      joined<SceneKey>(
+          {covariance_frame_keys(absent::other("of `[uncertainty]`")),
+           {{"velocity_change_m_s", form::array(form::number(), 3), absent::refused(),
+             "velocity change of the burn that ends at the start; the start is the state after it"},
+            {"magnitude", form::between(0, 1), absent::other("0"),
+             "standard deviation of its size, as a share of it"},
+            {"direction_deg", form::between(0, 90), absent::other("0"),
+             "standard deviation about each of the two axes across it"}}}),
       "Execution errors, after Gates, of the deputy's burn, or of the chief's in a scene without "
       "one; linear in the errors."};
   return table;
@@ -280,7 +281,7 @@ const TableDescription& uncertainty_table() {
           {covariance_frame_keys(absent::value("RTN")),
            state_uncertainty_keys(),
            {{"deputy", form::table(deputy_uncertainty_table()), absent::other("known exactly"),
-             "of a scene with a deputy"},
+             "uncertainty of the deputy, in a scene that has one"},
             {"burn", form::table(burn_table()), absent::other("none"), "errors of a burn"},
             {"collision", form::table(collision_table()), absent::other("not looked for"),
              "whether chief and deputy may hit each other"},
@@ -294,11 +295,11 @@ const TableDescription& uncertainty_table() {
            transfer_time_keys(absent::other("the end")),
            {{"coordinates", form::array(form::choice(names_of_measurable())),
              absent::other("those of `[jet]` alone"),
-             "in which the distribution at the last time is told too, beside one another"},
+             "coordinates in which the distribution at the last time is also given, side by side"},
             {"samples", form::integer(0, most_flown_samples), absent::value(preset.samples),
              "flown with the full equations beside the moments; 0: none"},
             {"seed", form::integer(0, largest_seed), absent::value(preset.seed),
-             "of the samples"}}}),
+             "seed of the samples"}}}),
       "How well the chief's state at the start is known; RTN is of its own orbit. The frame is "
       "that "
       "of the results too, at the chief."};

@@ -27,7 +27,7 @@ const TableDescription& validity_table() {
       {{{"tolerance_m", form::positive(), absent::value(preset.tolerance_m), "the largest miss"}},
        transfer_time_keys(absent::other(fmt::format("`count = {}`", default_times))),
        {{"semi_axes", form::array(form::positive(), 3), absent::value(preset.semi_axes),
-         "of the ellipsoid of positions along the axes of the frame; velocities fill the "
+         "semi-axes of the ellipsoid of positions along the axes of the frame; velocities fill the "
          "same one times the mean motion"},
         {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
          "deputies that are flown"}},

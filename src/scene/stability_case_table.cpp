@@ -11,7 +11,7 @@ const ValueForm decimals =
 
 const TableDescription& condition_table() {
   static const TableDescription table = {
-      {{"kind", form::text(), absent::refused(), "of the generating function"},
+      {{"kind", form::text(), absent::refused(), "kind of the generating function"},
        {"value", form::positive(), absent::refused(), "the condition number of its linear part"}}};
   return table;
 }
@@ -22,13 +22,14 @@ const TableDescription& growth_table() {
   static const TableDescription table = {
       {{"checkpoints", form::integer(3, 20), absent::value(preset.checkpoints),
         "times, in powers of two"},
-       {"times", form::array(form::number()), absent::other("`checkpoints`"), "of `states`"},
+       {"times", form::array(form::number()), absent::other("`checkpoints`"), "times of `states`"},
        {"states", decimals, not_compared, "the nominal at `times`"},
        {"samples", form::integer(1, 64), absent::value(preset.samples), "starts an ulp apart"},
-       {"error_exponent", form::number(), not_compared, "of the error, in time"},
-       {"energy_exponent", form::number(), not_compared, "of the energy's error"},
+       {"error_exponent", form::number(), not_compared, "exponent of the error's growth in time"},
+       {"energy_exponent", form::number(), not_compared,
+        "exponent of the growth of the energy's error"},
        {"coefficient_exponents", form::array(form::number()), not_compared,
-        "of the coefficients of each degree"},
+        "exponents of the growth of the coefficients of each degree"},
        {"exponent_tolerance", form::positive(), absent::value(preset.exponent_tolerance),
         "largest difference"}}};
   return table;
@@ -37,7 +38,7 @@ const TableDescription& growth_table() {
 const TableDescription& twin_table() {
   static const TableDescription table = {
       {{"set", form::words("array of `key=value`", form::array(form::text())), absent::refused(),
-        "the same scene another way, as with `--set`"}}};
+        "changes that give the same scene in another way, as with `--set`"}}};
   return table;
 }
 
@@ -57,13 +58,18 @@ const TableDescription& case_table() {
         "first derivatives of the final by the initial state, by rows", measured},
        {"tolerance",
         form::words("number from 0", form::between(0, std::numeric_limits<double>::max())),
-        absent::value(0), "of the errors", measured},
-       {"twin", form::table(twin_table()), not_compared, "the same scene another way", measured},
+        absent::value(0), "tolerance of the errors", measured},
+       {"twin", form::table(twin_table()), not_compared, "the same scene given in another way",
+        measured},
        {"condition", form::table(condition_table()), not_compared, "a condition number", measured},
        {"growth", form::table(growth_table()), not_compared, "how errors grow", measured},
        {"round_trip", form::boolean(), absent::value(false), "out and back: the start is compared",
         measured},
-       {"exit_code", form::integer(2, 6), absent::refused(), "of the refusal", {"refused"}},
+       {"exit_code",
+        form::integer(2, 6),
+        absent::refused(),
+        "exit code of the refusal",
+        {"refused"}},
        {"message", form::text(), absent::refused(), "a part of the error", {"refused"}},
        {"mark",
         form::choice(self_check_names()),

@@ -56,7 +56,7 @@ constexpr CellKind cell_kind() {
   }
 }
 
-/// A value as CSV has it, empty where there is none.
+/// A cell's text in CSV; empty for a cell without a value.
 inline std::string csv_text(const CellValue& value) {
   return std::visit(
       []<class Value>(const Value& held) -> std::string {

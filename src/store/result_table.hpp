@@ -78,7 +78,7 @@ class ResultTable {
   }
   /// Rows are no array of summary.json.
   void leave_rows_out_of_json() { view_.has_rows_in_json = false; }
-  /// Leaves in CSV those columns alone.
+  /// Leaves only these columns in CSV.
   void keep_in_csv(const std::set<std::string>& names) {
     for (TableColumn& column : view_.columns) column.is_in_csv = names.contains(column.name);
   }

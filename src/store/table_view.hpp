@@ -11,7 +11,7 @@ namespace hamjet::io {
 
 /// A column of a table of results with all that is said of it, and its cells.
 struct TableColumn {
-  std::string name;     ///< in CSV, JSON and Python
+  std::string name;     ///< name in CSV, JSON and Python
   std::string unit;     ///< "m/s"; empty for what has none
   std::string meaning;  ///< a phrase that says what it is
   CellKind kind = CellKind::number;
@@ -41,7 +41,7 @@ struct TableDimension {
 /// A table of results as files, pages and Python read it. Its rows run over the dimensions, the
 /// last one fastest.
 struct TableView {
-  std::string name;  ///< of its CSV file and of the table in Python
+  std::string name;  ///< name of the CSV file and of the table in Python
   std::string meaning;
   /// A JSON pointer into summary.json, where the columns without dimension are members, and the
   /// rows an array with the name of the dimension.

@@ -74,7 +74,7 @@ ItemOutcome run_command(const SweepStudy& study, std::size_t item,
   require_scene_of(described, scene, file);
   StudyWork work{progress};
   work.origin.gnuplot = "";
-  return outcome_of(described.report(scene, work));
+  return outcome_of(described.study(scene, work).report());
 }
 
 /// The element of a list: by its index, or by its label as with --set; none beyond the end.
@@ -189,7 +189,8 @@ void take_failure(const SweepStudy& study, SweepRow& row) {
   try {
     throw;
   } catch (const Error& error) {
-    const bool is_usage = error.kind() == ErrorKind::usage;  // of an override: the study's
+    const bool is_usage =
+        error.kind() == ErrorKind::usage;  // an override was wrong, which is a mistake in the study
     row.exit_code = is_usage ? static_cast<int>(ErrorKind::scene) : error.exit_code();
     row.error = portable_text(study, error.what());
     replace_all(row.error, "\n", "; ");  // a row is a line

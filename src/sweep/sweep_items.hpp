@@ -20,8 +20,9 @@ using SweepValue = std::variant<std::monostate, bool, double, std::string>;
 /// What became of one item.
 struct SweepRow {
   std::size_t item = 0;
-  int exit_code = 0;  ///< of the item's command; with 1 (a check failed) there are values too
-  std::string error;  ///< one line, if the exit code is not 0
+  int exit_code =
+      0;  ///< exit code of the item's command; with 1 (a check failed) there are values too
+  std::string error;               ///< one line, if the exit code is not 0
   std::vector<SweepValue> values;  ///< one a column
   /// Not empty: a column leads nowhere in the item's summary; the message names it and its place in
   /// the study. Not stored.

@@ -22,10 +22,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Counts {
-  std::size_t done = 0;  ///< with exit code 0
+  std::size_t done = 0;  ///< number of items with exit code 0
   std::size_t failed = 0;
   std::size_t missing = 0;
-  std::map<int, std::size_t> by_exit_code;  ///< of those that failed
+  std::map<int, std::size_t> by_exit_code;  ///< number of failed items by exit code
 };
 
 Counts count(const SweepRows& rows) {

@@ -42,8 +42,9 @@ void add_key(SweepStudy& study, SweepKey key, const TableReader& table, std::str
   };
   for (const SweepKey& other : study.keys) {
     if (study.is_grid && (is_within(other.name, key.name) || is_within(key.name, other.name))) {
-      table.fail(at, fmt::format("a part of another key, got {} beside {}, must be a key apart",
-                                 in_quotes(key.name), in_quotes(other.name)));
+      table.fail(
+          at, fmt::format("a part of another key, got {} beside {}, must be a key of other values",
+                          in_quotes(key.name), in_quotes(other.name)));
     }
   }
   study.keys.push_back(std::move(key));

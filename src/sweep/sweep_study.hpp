@@ -42,12 +42,12 @@ struct SweepMap {
 /// A scene, many times, with other values of some keys. All but the places and `scene_path` is
 /// frozen in the manifest (see `sweep_manifest`).
 struct SweepStudy {
-  std::string name;  ///< of the file, fit for a directory
+  std::string name;  ///< name of the file, fit for a directory
   std::string title;
-  std::string version;  ///< of the hamjet that made it
+  std::string version;  ///< version of the hamjet that made it
   std::string command = "run";
   std::string scene;                 ///< the base scene's file, as the study names it
-  std::string scene_text;            ///< its content
+  std::string scene_text;            ///< content of the scene's file
   std::filesystem::path scene_path;  ///< where it is; empty in a study that a manifest gave
   std::vector<Override> constants;   ///< changes that all items share
   std::vector<std::string> constant_places;

@@ -13,19 +13,20 @@ const TableDescription& sweep_table() {
        {"command", form::choice(sweep_commands()), absent::refused(),
         "what is done with each item"},
        {"set", form::words("keys of the scene"), absent::other("none"),
-        "the same in all items, as `--set` takes them"}}};
+        "changes that all items share, as `--set` takes them"}}};
   return table;
 }
 
 const TableDescription& axis_table() {
   static const TableDescription table = {
-      {{"key", form::text(), absent::refused(), "of the scene, as `--set` takes it"},
+      {{"key", form::text(), absent::refused(), "key of the scene, as `--set` takes it"},
        {"values", form::words("array of values, each once"), absent::other("`from`, `to`, `count`"),
-        "in this order"},
+        "the values, in this order"},
        {"from", form::number(), absent::other("`values`"), "the first value"},
-       {"to", form::number(), absent::other("required by `from`"), "the last value, another one"},
+       {"to", form::number(), absent::other("required by `from`"),
+        "the last value, which differs from the first"},
        {"count", form::integer(2, static_cast<double>(most_sweep_items)),
-        absent::other("required by `from`"), "of values, both ends included"},
+        absent::other("required by `from`"), "number of values, both ends included"},
        {"spacing", spacing_or_scale(), absent::value("linear"),
         "logarithmic: equal ratios, of values above 0"}}};
   return table;
@@ -33,7 +34,8 @@ const TableDescription& axis_table() {
 
 const TableDescription& column_table() {
   static const TableDescription table = {
-      {{"name", form::text(), absent::refused(), "of the column, unlike the others and the keys"},
+      {{"name", form::text(), absent::refused(),
+        "name of the column; no other column or key has it"},
        {"unit", form::text(), absent::other("none"), "beside the name"},
        {"value", form::words("JSON pointer"), absent::refused(), "into `summary.json`"}}};
   return table;
@@ -44,7 +46,7 @@ const TableDescription& map_table() {
       {{"x", form::words("a key of the items, of numbers"), absent::refused(), "the axis across"},
        {"y", form::words("another one"), absent::refused(), "the axis up"},
        {"value", form::words("the name of a column"), absent::refused(), "what the colours show"},
-       {"scale", spacing_or_scale(), absent::value("linear"), "of the colours"}}};
+       {"scale", spacing_or_scale(), absent::value("linear"), "scale of the colours"}}};
   return table;
 }
 

@@ -6,7 +6,7 @@ namespace hamjet::io {
 /// long.
 struct TimeAxis {
   double seconds;    ///< seconds in one unit
-  const char* name;  ///< as in "transfer time (h)"
+  const char* name;  ///< name of the unit, as in "transfer time (h)"
 };
 TimeAxis time_axis(double longest_s);
 

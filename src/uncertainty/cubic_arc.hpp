@@ -29,7 +29,7 @@ class SquaredDistance {
   /// Appends to the list the fractions of the interval at which the squared distance falls through
   /// this square.
   void entries(double square, std::vector<double>& parts) const;
-  /// Whether there is such a fraction.
+  /// Whether the arc comes nearer than this at any fraction of it.
   bool enters(double square) const { return enters(square, 1); }
   /// The least value in the interval, not below 0, or `best` where nothing is below `best`. It is
   /// accurate to 1e-12 of itself, or 1e-15 of the largest value.

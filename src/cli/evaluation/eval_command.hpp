@@ -14,12 +14,13 @@ namespace hamjet::cli {
 
 struct EvalOptions {
   std::string directory;  ///< results of `hamjet run`, or a file of theirs; or a scene, or -
-  std::optional<std::string> standard_input;  ///< its text, where a scene is read from there
-  std::optional<std::string> deviation;       ///< one deviation, numbers between commas
-  std::optional<std::string> deviations;      ///< a CSV file of them
-  std::optional<std::string> deputy;          ///< a scene, whose deputy it is
-  std::optional<std::string> run;             ///< label of the integrator's run
-  std::vector<std::string> overrides;         ///< key=value, of the scene
+  std::optional<std::string>
+      standard_input;                     ///< text of standard input, if a scene is read from there
+  std::optional<std::string> deviation;   ///< one deviation, numbers between commas
+  std::optional<std::string> deviations;  ///< a CSV file of them
+  std::optional<std::string> deputy;      ///< a scene, whose deputy it is
+  std::optional<std::string> run;         ///< label of the integrator's run
+  std::vector<std::string> overrides;     ///< key=value, of the scene
   EvalFrames frames;
   std::optional<std::string> time;     ///< of the jets: seconds between commas, or all
   std::optional<int> degree;           ///< truncates the jet

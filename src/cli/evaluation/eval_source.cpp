@@ -31,7 +31,8 @@ EvalSource integrated_scene(const EvalOptions& options) {
   return {std::move(chief), std::move(evaluated)};
 }
 
-/// Of results in the coordinates that their scene asks for, the polynomials in these.
+/// Reads the polynomials in the coordinates that the scene of the results asks for, or the jet if
+/// there are none.
 io::StoredJet read_polynomials_or_jet(const EvalOptions& options) {
   auto polynomials = io::read_stored_polynomials(options.directory, options.run);
   return polynomials ? std::move(*polynomials) : read_noted_jet(options.directory, options.run);

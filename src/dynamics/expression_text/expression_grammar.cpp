@@ -23,7 +23,7 @@ namespace x3 = boost::spirit::x3;
 struct Parsing {
   const char* text = nullptr;
   std::vector<ExpressionToken> tokens = {};
-  std::vector<ExpressionToken> operators = {};    ///< those that wait
+  std::vector<ExpressionToken> operators = {};  ///< operators whose right side is still being read
   std::vector<std::size_t> first_operators = {};  ///< of the factors that are open
   std::vector<ExpressionToken> calls = {};
 };

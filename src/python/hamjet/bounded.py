@@ -8,7 +8,7 @@ import numpy.typing as npt
 from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
 from .results import Floats, Progress
-from .studies import Columns, Study
+from .studies import Columns, Study, of_table
 
 
 class FrozenOrbit(Study, table="poincare"):
@@ -121,8 +121,7 @@ def poincare(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     Arguments as of ``run``. Raises SceneError, UsageError, NumericalError (no frozen orbit, or a
     chief near the equatorial plane), TooLargeError, InputOutputError.
     """
-    study = _hamjet.study_poincare(scenes.read(scene, overrides), arguments.progress(progress))
-    return FrozenOrbit(study)
+    return FrozenOrbit(of_table("", scene, overrides, progress))
 
 
 def event(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -143,8 +142,7 @@ def bounded(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
 
     The scene has a table [bounded]; arguments as of ``run``. Raises as ``poincare``.
     """
-    study = _hamjet.study_bounded(scenes.read(scene, overrides), arguments.progress(progress))
-    return Bounded(study)
+    return Bounded(of_table("bounded", scene, overrides, progress))
 
 
 def periodic(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
@@ -154,5 +152,4 @@ def periodic(scene: scenes.Scene, *, overrides: scenes.Overrides | None = None,
     The scene has a table [periodic]; arguments as of ``run``. Raises as ``poincare``, NumericalError
     where no orbit is found.
     """
-    study = _hamjet.study_periodic(scenes.read(scene, overrides), arguments.progress(progress))
-    return Periodic(study)
+    return Periodic(of_table("periodic", scene, overrides, progress))

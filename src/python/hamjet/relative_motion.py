@@ -11,7 +11,7 @@ import numpy.typing as npt
 from . import _hamjet, arguments, plots, scenes, shown
 from .immutable import Immutable
 from .results import Floats, Progress
-from .studies import Study, required_study
+from .studies import Study, of_table, required_study
 
 Flags = npt.NDArray[np.bool_]
 Indices = npt.NDArray[np.int64]
@@ -178,8 +178,7 @@ def validity(scene: scenes.Scene, *, coordinates: str | None = None,
     The scene has a table [validity]; coordinates, of the polynomials at both ends, as of
     ``polynomials``; other arguments as of ``run``. Raises as ``transfer``.
     """
-    study = _hamjet.study_separations(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
-    return Validity(study)
+    return Validity(of_table("validity", scene, overrides, progress, coordinates))
 
 
 def assign(scene: scenes.Scene, *, coordinates: str | None = None,
@@ -190,5 +189,4 @@ def assign(scene: scenes.Scene, *, coordinates: str | None = None,
     The scene has tables [transfer] and [assignment]; coordinates, of the polynomials at both ends,
     as of ``polynomials``; other arguments as of ``run``. Raises as ``transfer``.
     """
-    study = _hamjet.study_assignment(scenes.read(scene, overrides, coordinates=coordinates), arguments.progress(progress))
-    return Assignment(study)
+    return Assignment(of_table("assignment", scene, overrides, progress, coordinates))

@@ -8,9 +8,10 @@ import os
 import types
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from . import _hamjet, arguments, shown
+from . import _hamjet, arguments, scenes, shown
 from .errors import UsageError
 from .immutable import Immutable
+from .results import Progress
 from .tables import Table, data_frame
 
 _AnyStudy = TypeVar("_AnyStudy")
@@ -20,6 +21,16 @@ def required_study(study: _AnyStudy | None, what: str) -> _AnyStudy:
     if study is None:
         raise UsageError(f"{what}: these results were unpickled, which leaves their study behind")
     return study
+
+
+def of_table(table: str, scene: scenes.Scene, overrides: scenes.Overrides | None,
+             progress: Progress | None, coordinates: str | None = None) -> _hamjet.PlainStudy:
+    """Does the study of a scene's table; the one that works without a table for "".
+
+    The study must have nothing to offer but its tables and its report.
+    """
+    given = scenes.read(scene, overrides, coordinates=coordinates)
+    return _hamjet.study_of_table(table, given, arguments.progress(progress))
 
 
 def described(table: str) -> str:

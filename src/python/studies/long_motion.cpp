@@ -1,27 +1,12 @@
-#include "../../report/bounded/bounded_report.hpp"
 #include "../../report/bounded/event_report.hpp"
-#include "../../report/bounded/frozen_orbit_report.hpp"
-#include "../../report/periodic/periodic_report.hpp"
 #include "../bindings.hpp"
 #include "studied.hpp"
 
 namespace hamjet::python {
 namespace {
 
-Studied<FrozenOrbitStudy> study_poincare(const GivenScene& given, const py::object& progress) {
-  return studied(given, progress, "", &study_frozen_orbit, &io::frozen_orbit_report);
-}
-
-Studied<BoundedFormation> study_company(const GivenScene& given, const py::object& progress) {
-  return studied(given, progress, "bounded", &study_bounded, &io::bounded_report);
-}
-
 Studied<EventStudy> study_condition(const GivenScene& given, const py::object& progress) {
   return studied(given, progress, "event", &study_event, &io::event_report);
-}
-
-Studied<PeriodicStudy> study_closed(const GivenScene& given, const py::object& progress) {
-  return studied(given, progress, "periodic", &study_periodic, &io::periodic_report);
 }
 
 /// The polynomials of the time and of the state at the event, a row a monomial.
@@ -47,16 +32,10 @@ py::dict event_polynomials(const EventStudy& study) {
 }  // namespace
 
 void bind_long_motion(py::module_& module) {
-  bind_study<FrozenOrbitStudy>(module, "PoincareStudy", &io::poincare_tables);
-  bind_study<BoundedFormation>(module, "BoundedStudy", &io::bounded_tables);
   bind_study<EventStudy>(module, "EventStudy", &io::event_tables)
       .def("polynomials",
            [](const Studied<EventStudy>& s) { return event_polynomials(*s.result()); });
-  bind_study<PeriodicStudy>(module, "PeriodicStudy", &io::periodic_tables);
-  module.def("study_periodic", &study_closed, py::arg("scene"), py::arg("progress"));
   module.def("study_event", &study_condition, py::arg("scene"), py::arg("progress"));
-  module.def("study_poincare", &study_poincare, py::arg("scene"), py::arg("progress"));
-  module.def("study_bounded", &study_company, py::arg("scene"), py::arg("progress"));
 }
 
 }  // namespace hamjet::python

@@ -3,16 +3,13 @@
 #include <cstdint>
 
 #include "../../formats/relative_frame_text.hpp"
-#include "../../report/formation/assignment_tables.hpp"
 #include "../../report/formation/deputy_motion_report.hpp"
 #include "../../report/formation/transfer_tables.hpp"
 #include "../../report/formation/transfer_view.hpp"
-#include "../../report/formation/validity_table.hpp"
 #include "../../studies/formation/deputy_motion.hpp"
 #include "../bindings.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
-#include "hamjet/studies/assignment.hpp"
 #include "studied.hpp"
 
 namespace hamjet::python {
@@ -27,14 +24,6 @@ Studied<TransferResult> study_transfers(const GivenScene& given, const py::objec
 
 Studied<DeputyMotion> study_motion(const GivenScene& given, const py::object& progress) {
   return studied(given, progress, "deputy", &study_deputy_motion, &io::deputy_motion_report);
-}
-
-Studied<AssignmentResult> assign(const GivenScene& given, const py::object& progress) {
-  return studied(given, progress, "assignment", &study_assignment, &io::assignment_report);
-}
-
-Studied<ValidityResult> study_separations(const GivenScene& given, const py::object& progress) {
-  return studied(given, progress, "validity", &study_validity, &io::validity_report);
 }
 
 /// One point's best answer, flown: (times in s, states (count + 1, 6) along R, T, N in m and m/s).
@@ -78,16 +67,11 @@ py::tuple extremes(const DeputyMotion& motion) {
 }  // namespace
 
 void bind_relative_motion(py::module_& module) {
-  module.def("declarations", &declarations);
   bind_study<TransferResult>(module, "TransferStudy", &io::transfer_tables).def("fly", &fly);
   bind_study<DeputyMotion>(module, "MotionStudy", &io::deputy_motion_tables)
       .def("extremes", [](const Studied<DeputyMotion>& s) { return extremes(*s.result()); });
-  bind_study<ValidityResult>(module, "ValidityStudy", &io::validity_tables);
-  bind_study<AssignmentResult>(module, "AssignmentStudy", &io::assignment_tables);
-  module.def("study_assignment", &assign, py::arg("scene"), py::arg("progress"));
   module.def("study_transfers", &study_transfers, py::arg("scene"), py::arg("progress"));
   module.def("study_motion", &study_motion, py::arg("scene"), py::arg("progress"));
-  module.def("study_separations", &study_separations, py::arg("scene"), py::arg("progress"));
 }
 
 }  // namespace hamjet::python

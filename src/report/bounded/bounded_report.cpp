@@ -218,11 +218,12 @@ void add_drifts(ResultTable<BoundedDeputy>& table, std::size_t span, const std::
                  prefix + "_" + name, "", meaning,
                  [=](const BoundedDeputy& deputy) { return deputy.drifts[span].*member; });
   };
-  add("revolutions", "those of " + told, &BoundedDrift::revolutions);
-  add("along_drift", "along the track over " + told, &BoundedDrift::along);
-  add("along_doubt", "by how much that changes where " + told + " ends a look earlier",
+  add("revolutions", "the number of revolutions of " + told, &BoundedDrift::revolutions);
+  add("along_drift", "the drift along the track over " + told, &BoundedDrift::along);
+  add("along_doubt",
+      "by how much the drift along the track changes where " + told + " ends a look earlier",
       &BoundedDrift::along_doubt);
-  add("cross_drift", "across the track over " + told, &BoundedDrift::cross);
+  add("cross_drift", "the drift across the track over " + told, &BoundedDrift::cross);
   add("along_range", "the range of the along-track difference over " + told, &BoundedDrift::range);
 }
 
@@ -274,15 +275,18 @@ TableView bounded_table(const BoundedFormation& formation) {
   table.add_scalar("verdict", "", "the outcome in words", bounded_verdict(formation));
   table.add_scalar("phase_deg", "deg", "the direction in which eccentricity vectors differ",
                    settings.phase_deg);
-  table.add_scalar("cross_track", "", "the reach across the track, of the size",
+  table.add_scalar("cross_track", "",
+                   "how far the deputy goes across the track, in parts of the size",
                    settings.cross_track);
-  table.add_scalar("along_track", "", "the mean place ahead of the chief, of the size",
+  table.add_scalar("along_track", "",
+                   "how far the deputy is ahead of the chief in the mean, in parts of the size",
                    settings.along_track);
-  table.add_scalar("revolutions", "", "of the window over which all are flown",
+  table.add_scalar("revolutions", "",
+                   "the number of revolutions of the window over which all deputies are flown",
                    formation.revolutions);
   table.add_scalar("nodal_period_s", "s", "from node to node at the chief's start",
                    formation.nodal_period * unit);
-  table.add_scalar("mean_nodal_period_s", "s", "the chief's over the window",
+  table.add_scalar("mean_nodal_period_s", "s", "the chief's mean nodal period over the window",
                    formation.mean_period * unit);
   table.add_scalar("node_deg_per_revolution", "deg a revolution",
                    "the mean drift of the chief's node over the window",
@@ -292,16 +296,20 @@ TableView bounded_table(const BoundedFormation& formation) {
     return deputy.failure.empty() && is_of_map(deputy.rule);
   };
   table.add("wanted_m", "m", "the size that was asked for", &BoundedDeputy::wanted_m);
-  table.add("rule", "", "by which it was chosen",
+  table.add("rule", "", "the rule by which the deputy was chosen",
             [](const BoundedDeputy& deputy) { return name_of(deputy.rule); });
   table.add_if(is_there, "size_m", "m",
                "the largest distance from the chief over the first revolution",
                &BoundedDeputy::size_m);
-  table.add_if(is_there, "least_size_m", "m",
-               "the least such of a revolution from each look of the window on",
-               &BoundedDeputy::least_size_m);
-  table.add_if(is_there, "largest_size_m", "m", "the largest such", &BoundedDeputy::largest_size_m);
-  table.add_if(is_there, "last_size_m", "m", "that from the window's end on",
+  table.add_if(
+      is_there, "least_size_m", "m",
+      "the least size over one revolution, of the revolutions of the window that were looked at",
+      &BoundedDeputy::least_size_m);
+  table.add_if(is_there, "largest_size_m", "m",
+               "the largest size over one revolution, of the same revolutions",
+               &BoundedDeputy::largest_size_m);
+  table.add_if(is_there, "last_size_m", "m",
+               "the size over the revolution that begins at the end of the window",
                &BoundedDeputy::last_size_m);
   table.add_if(is_there, "held", "",
                "whether these sizes stay within a quarter of the one that was asked for",
@@ -310,7 +318,7 @@ TableView bounded_table(const BoundedFormation& formation) {
                "the amplitude of the difference of the eccentricity vectors",
                &BoundedDeputy::amplitude);
   table.add_array("half_widths_m", {"half_width_r_m", "half_width_t_m", "half_width_n_m"}, "m",
-                  "half of how far it reaches along R, T and N over the first revolution",
+                  "half of the deputy's extent along R, T and N over the first revolution",
                   [=](const BoundedDeputy& deputy) -> std::optional<Eigen::Vector3d> {
                     if (!is_there(deputy)) return std::nullopt;
                     return half_widths_m(deputy.first);
@@ -325,7 +333,7 @@ TableView bounded_table(const BoundedFormation& formation) {
       has_map, "momentum_difference_canonical", "",
       "the angular momentum about the axis less the chief's, canonical",
       [=](const BoundedDeputy& deputy) { return told.told_action(deputy.momentum_difference); });
-  table.add_if(has_map, "refinements", "", "iterations of Newton's method by flying",
+  table.add_if(has_map, "refinements", "", "the number of iterations of Newton's method by flying",
                &BoundedDeputy::refinements);
   table.add_if(is_there, "lowest_m", "m",
                "the least distance from the centre over the revolutions that were looked at",
@@ -340,7 +348,7 @@ TableView bounded_table(const BoundedFormation& formation) {
                    [=](const BoundedDeputy& deputy) { return deputy.forms[f][i]; });
     }
   }
-  table.add("failure", "", "why there is no such deputy", &BoundedDeputy::failure);
+  table.add("failure", "", "the reason why there is no such deputy", &BoundedDeputy::failure);
   return std::move(table).view(formation.deputies, {formation.deputies.size()});
 }
 

@@ -51,35 +51,44 @@ TableView box_table(const BoundedFormation& formation) {
       "box", "/box", {"returns"},
       "The returns of a deputy that is kept in a box, of two impulses each.");
   table.leave_rows_out_of_json();
-  table.add_scalars("half_widths_m", "m", "of the box along R, T and N", *settings.half_widths_m);
-  table.add_scalar("reference", "", "the middle: a place at rest, or the deputy of the first size",
+  table.add_scalars("half_widths_m", "m", "the half widths of the box along R, T and N",
+                    *settings.half_widths_m);
+  table.add_scalar("reference", "",
+                   "the middle of the box: a place at rest, or the deputy of the first size",
                    settings.reference == BoxReference::member ? "member" : "rest");
-  table.add_scalar("days", "", "over which it is kept", box.days);
-  table.add_scalar("returns", "", "how many there are", box.returns.size());
+  table.add_scalar("days", "", "the number of days over which the deputy is kept", box.days);
+  table.add_scalar("returns", "", "the number of returns into the box", box.returns.size());
   table.add_scalar("total_change_m_s", "m/s", "the sum of all impulses", box.change_m_s());
-  table.add_scalar("change_m_s_a_day", "m/s a day", "that, over the days", box.change_a_day_m_s());
+  table.add_scalar("change_m_s_a_day", "m/s a day", "the sum of all impulses, over the days",
+                   box.change_a_day_m_s());
   table.add_scalar("farthest_of_all", "",
                    "the farthest that the flown deputy is from the middle, in half widths",
                    box.farthest);
-  table.add_scalar("held", "", "whether it is never outside", box.is_held());
-  table.add_scalar("places_a_revolution", "", "at which it is looked for",
+  table.add_scalar("held", "", "whether the deputy is never outside of the box", box.is_held());
+  table.add_scalar("places_a_revolution", "",
+                   "the number of places of a revolution at which the deputy is looked for",
                    BoxControl::places_a_revolution);
-  table.add_scalars("least_m", "m", "the least of its places along R, T and N", box.least_m);
-  table.add_scalars("most_m", "m", "the greatest of its places along R, T and N", box.most_m);
-  table.add_scalars("start_canonical", "", "its state at the start, canonical",
+  table.add_scalars("least_m", "m", "the least of the deputy's coordinates along R, T and N",
+                    box.least_m);
+  table.add_scalars("most_m", "m", "the greatest of the deputy's coordinates along R, T and N",
+                    box.most_m);
+  table.add_scalars("start_canonical", "", "the state of the deputy at the start, canonical",
                     told_state(formation.scene, box.start));
   const double unit = formation.scene.units.time_s;
-  table.add("time_s", "s", "of the first impulse, since the start",
+  table.add("time_s", "s", "the time of the first impulse, since the start",
             [=](const BoxReturn& one) { return one.time * unit; });
-  table.add("duration_s", "s", "from there to the second impulse",
+  table.add("duration_s", "s", "the time from the first impulse to the second",
             [=](const BoxReturn& one) { return one.duration * unit; });
-  table.add("change_m_s", "m/s", "the sum of both", &BoxReturn::change_m_s);
+  table.add("change_m_s", "m/s", "the sum of the magnitudes of both impulses",
+            &BoxReturn::change_m_s);
   table.add_array("first_m_s", {"first_r_m_s", "first_t_m_s", "first_n_m_s"}, "m/s",
                   "the first impulse along the chief's R, T and N", &BoxReturn::first_m_s);
   table.add_array("second_m_s", {"second_r_m_s", "second_t_m_s", "second_n_m_s"}, "m/s",
                   "the second impulse along the chief's R, T and N", &BoxReturn::second_m_s);
-  table.add("miss_m", "m", "how far the flight ends from the middle", &BoxReturn::miss_m);
-  table.add("farthest", "", "from the middle on the way, in half widths", &BoxReturn::farthest);
+  table.add("miss_m", "m", "the distance from the middle at which the flight ends",
+            &BoxReturn::miss_m);
+  table.add("farthest", "", "the farthest from the middle on the way, in half widths",
+            &BoxReturn::farthest);
   return std::move(table).view(box.returns, {box.returns.size()});
 }
 

@@ -140,25 +140,28 @@ std::vector<TableView> event_tables(const EventStudy& study) {
       "When and where the chief meets a condition, and how far flown deputies are from the "
       "polynomials of time and state: the largest of several with deviations of one size.");
   table.add_scalar("verdict", "", "the outcome in words", event_verdict(study));
-  table.add_scalar("condition", "", "in words", condition_text(*study.scene.event));
+  table.add_scalar("condition", "", "the condition in words", condition_text(*study.scene.event));
   table.add_scalar("number", "", "which of the chief's events it is, from 1",
                    study.scene.event->number);
-  table.add_scalar("time_s", "s", "of the chief's event, since the start", study.time_s());
-  table.add_scalar("time_canonical", "", "the same, in the scene's canonical unit of time",
+  table.add_scalar("time_s", "s", "the time of the chief's event, since the start", study.time_s());
+  table.add_scalar("time_canonical", "", "the same time, in the scene's canonical unit of time",
                    told_time(study.scene, study.map.time[0]));
-  table.add_scalars("state_canonical", "", "the chief's at the event, canonical",
+  table.add_scalars("state_canonical", "", "the state of the chief at the event, canonical",
                     told_state(study.scene, study.state()));
-  table.add_scalar("position_rounding_m", "m", "of a flown position: misses below say nothing",
+  table.add_scalar("position_rounding_m", "m",
+                   "the rounding of a flown position: misses below it say nothing",
                    study.position_rounding_m);
-  table.add_scalar("flown_deputies", "", "of each deviation", study.flown);
+  table.add_scalar("flown_deputies", "", "the number of flown deputies of each deviation",
+                   study.flown);
   table.add("amplitude_m", "m", "the deviation of the initial position", &EventMisses::amplitude_m);
-  table.add("position_miss_m", "m", "of the polynomials; nothing where a deputy could not be flown",
+  table.add("position_miss_m", "m",
+            "the miss of the polynomials' position; nothing where a deputy could not be flown",
             &EventMisses::position_m);
-  table.add("time_miss_s", "s", "of the polynomials' time, from the event itself",
+  table.add("time_miss_s", "s", "the miss of the polynomials' time from that of the flown event",
             &EventMisses::time_s);
-  table.add("linear_position_miss_m", "m", "of the linear polynomials",
+  table.add("linear_position_miss_m", "m", "the miss of the linear polynomials' position",
             &EventMisses::linear_position_m);
-  table.add("linear_time_miss_s", "s", "of the linear polynomials' time",
+  table.add("linear_time_miss_s", "s", "the miss of the linear polynomials' time",
             &EventMisses::linear_time_s);
   return {std::move(table).view(study.misses, {study.misses.size()})};
 }

@@ -123,28 +123,37 @@ TableView frozen_orbit_table(const FrozenOrbitStudy& study) {
       "frozen_orbit", "/frozen_orbit", {},
       "The frozen orbit, osculating on the chief's mean argument of latitude.");
   const CanonicalUnits& units = study.scene.units;
-  table.add_scalars("state_canonical", "", "its state there, with the chief's node, canonical",
-                    told_state(study.scene, study.state));
-  table.add_scalar("a_km", "km", "its semi-major axis", study.semi_major_axis * units.length_km);
-  table.add_scalar("e", "", "its eccentricity", study.eccentricity);
-  table.add_scalar("i_deg", "deg", "its inclination", study.inclination_deg);
-  table.add_scalar("argp_deg", "deg", "the argument of its pericentre", study.pericentre_deg);
-  table.add_scalar("inside_body", "", "whether its pericentre lies inside the body",
+  table.add_scalars(
+      "state_canonical", "",
+      "the state of the frozen orbit at the section, with the chief's node, canonical",
+      told_state(study.scene, study.state));
+  table.add_scalar("a_km", "km", "the semi-major axis of the frozen orbit",
+                   study.semi_major_axis * units.length_km);
+  table.add_scalar("e", "", "the eccentricity of the frozen orbit", study.eccentricity);
+  table.add_scalar("i_deg", "deg", "the inclination of the frozen orbit", study.inclination_deg);
+  table.add_scalar("argp_deg", "deg", "the argument of the pericentre of the frozen orbit",
+                   study.pericentre_deg);
+  table.add_scalar("inside_body", "",
+                   "whether the pericentre of the frozen orbit lies inside the body",
                    study.is_inside_body());
-  table.add_scalar("nodal_period_s", "s", "from section to section",
+  table.add_scalar("nodal_period_s", "s", "the time from section to section",
                    study.nodal_period * units.time_s);
   table.add_scalar("node_deg_per_revolution", "deg a revolution", "the drift of its node",
                    study.node * degrees);
-  table.add_scalar("residual", "", "by how much a revolution moves it, in extended precision",
+  table.add_scalar("residual", "",
+                   "by how much a revolution moves the frozen orbit, in extended precision",
                    study.residual);
-  table.add_scalar("iterations", "", "of Newton's method", study.iterations);
-  table.add_scalar("trace", "", "the sum of its two multipliers", study.trace);
+  table.add_scalar("iterations", "", "the number of iterations of Newton's method",
+                   study.iterations);
+  table.add_scalar("trace", "", "the sum of the two multipliers of the frozen orbit", study.trace);
   table.add_scalar("trace_less_2", "", "that sum less 2; stable between -4 and 0",
                    study.trace_less_2);
-  table.add_scalars("multiplier", "", "one of the two, its real and imaginary parts",
+  table.add_scalars("multiplier", "", "one of the two multipliers, its real and imaginary parts",
                     study.multiplier());
-  table.add_scalar("area_defect", "", "the product of the two, less 1", study.area_defect);
-  table.add_scalar("stable", "", "whether both are on the unit circle", study.is_stable());
+  table.add_scalar("area_defect", "", "the product of the two multipliers, less 1",
+                   study.area_defect);
+  table.add_scalar("stable", "", "whether both multipliers are on the unit circle",
+                   study.is_stable());
   return std::move(table).view(std::vector<std::monostate>(1), {});
 }
 
@@ -157,23 +166,30 @@ TableView circles_table(const FrozenOrbitStudy& study) {
     return study.failure.empty() ? std::optional(value) : std::nullopt;
   };
   table.add_scalar("verdict", "", "the outcome in words", frozen_orbit_verdict(study));
-  table.add_scalar("failure", "", "why there is no normal form", study.failure);
-  table.add_scalar("smallest_divisor", "", "of the normal form", of_form(study.smallest_divisor));
-  table.add_scalar("flown_revolutions", "", "after which flown orbits are compared with it",
-                   of_form(study.flown_revolutions));
-  table.add_scalar("reach_m", "m", "the amplitude up to which they miss by no more than that",
+  table.add_scalar("failure", "", "the reason why there is no normal form", study.failure);
+  table.add_scalar("smallest_divisor", "", "the smallest divisor of the normal form",
+                   of_form(study.smallest_divisor));
+  table.add_scalar(
+      "flown_revolutions", "",
+      "the number of revolutions after which flown orbits are compared with the normal form",
+      of_form(study.flown_revolutions));
+  table.add_scalar("reach_m", "m",
+                   "the amplitude up to which flown orbits miss by no more than `largest_miss`",
                    of_form(study.length_m(study.reach)));
-  table.add_scalar("largest_miss", "", "which still counts as right, in parts of the amplitude",
+  table.add_scalar("largest_miss", "",
+                   "the largest miss that counts as right, in parts of the amplitude",
                    FrozenOrbitStudy::largest_miss);
-  table.add("amplitude_m", "m", "of the eccentricity vector, times the semi-major axis",
+  table.add("amplitude_m", "m",
+            "the radius of the eccentricity vector's circle, times the semi-major axis",
             [&](const LibrationCircle& circle) { return study.length_m(circle.amplitude); });
-  table.add("amplitude_eccentricity", "", "of the eccentricity vector",
+  table.add("amplitude_eccentricity", "", "the radius of the eccentricity vector's circle",
             &LibrationCircle::amplitude);
-  table.add("chief", "", "whether the scene's chief is on it", &LibrationCircle::is_chiefs);
-  table.add("rotation_number", "", "turns of the eccentricity vector a revolution",
+  table.add("chief", "", "whether the scene's chief is on this circle",
+            &LibrationCircle::is_chiefs);
+  table.add("rotation_number", "", "the turns of the eccentricity vector a revolution",
             &LibrationCircle::rotation_number);
   table.add(
-      "mean_nodal_period_s", "s", "from node to node, in the mean",
+      "mean_nodal_period_s", "s", "the mean period from node to node",
       [&](const LibrationCircle& circle) { return circle.mean_period * study.scene.units.time_s; });
   table.add("node_deg_per_revolution", "deg a revolution", "the mean drift of the node",
             [](const LibrationCircle& circle) { return circle.mean_node * degrees; });
@@ -181,8 +197,8 @@ TableView circles_table(const FrozenOrbitStudy& study) {
   table.add("action_canonical", "", "the circle's action, canonical",
             [=](const LibrationCircle& circle) { return told.told_action(circle.action); });
   table.add("miss", "",
-            "of a flown orbit from the normal form, in parts of the amplitude; nothing where it "
-            "could not be flown",
+            "the miss of a flown orbit from the normal form, in parts of the amplitude; nothing "
+            "where it could not be flown",
             &LibrationCircle::miss);
   return std::move(table).view(study.circles, {study.circles.size()});
 }

@@ -89,7 +89,7 @@ void add_costs(ComparisonColumns& columns) {
   add_extreme("most_seconds", std::max_element<Iterator>);
 }
 
-/// The largest of errors by degree, then those of so many degrees.
+/// Adds a column of the largest error over all degrees, then a column for each degree.
 void add_errors(ComparisonColumns& columns, const std::string& name,
                 std::vector<double> ComparedRun::*errors,
                 std::optional<double> (*largest)(const ComparedRun&), std::size_t degrees) {

@@ -76,18 +76,18 @@ struct ChartCell {
   double value = 0;
 };
 struct ChartMap {
-  std::string label;  ///< of the colours
+  std::string label;  ///< label of the colour scale
   bool is_logarithmic = false;
   std::vector<ChartCell> cells;  ///< not empty; where one has no width or height, all are points
 };
 
 /// A plot before it is drawn.
 struct Chart {
-  std::string name;                ///< of the file; letters, digits and hyphens
+  std::string name;                ///< name of the file; letters, digits and hyphens
   std::string title;               ///< heading in the page
   std::string reading;             ///< how to read it, a paragraph of plain text
   std::vector<std::string> notes;  ///< what is not drawn, or not where it belongs
-  std::string missing;             ///< why there is nothing to draw, where there is nothing
+  std::string missing;             ///< if there is nothing to draw, the reason
   bool is_isometric = false;       ///< a unit is as long along x as along y
   bool is_panel = false;           ///< stands beside others, drawn narrow in every window
   ChartAxis x;

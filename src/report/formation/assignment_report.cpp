@@ -183,8 +183,10 @@ TableView assignment_table(const AssignmentResult& result) {
   ResultTable<AssignedTransfer> table("assignment", "", {"transfers"},
                                       "The transfer of each deputy that has a slot.");
   table.leave_rows_out_of_json();
-  table.add("deputy", "", "which, from 0", &AssignedTransfer::deputy).is_in_json = false;
-  table.add("slot", "", "where it goes, from 0", &AssignedTransfer::slot).is_in_json = false;
+  table.add("deputy", "", "the number of the deputy, from 0", &AssignedTransfer::deputy)
+      .is_in_json = false;
+  table.add("slot", "", "the number of the slot, from 0", &AssignedTransfer::slot).is_in_json =
+      false;
   table.add_columns(transfer_columns(scene), &AssignedTransfer::transfer);
   table.keep_in_csv({"deputy", "slot", "time_canonical", "time_s", "kind", "condition",
                      "near_singular", "beyond_tolerance", "answer", "start_change_m_s",
@@ -192,16 +194,19 @@ TableView assignment_table(const AssignmentResult& result) {
   add_frame(table, scene.transfer->frame, result.coordinates);
   const auto& common = result.common_time;
   table.add_scalar(
-      "common_time_s", "s", "of all transfers, where the scene asks for one",
+      "common_time_s", "s", "the time of all transfers, where the scene asks for a common one",
       common ? std::optional(scene.transfer->times[*common] * scene.units.time_s) : std::nullopt);
-  table.add_scalars("deputies_without_slot", "", "which, from 0", if_assigned(deputies_left));
-  table.add_scalars("slots_without_deputy", "", "which, from 0", if_assigned(slots_left));
+  table.add_scalars("deputies_without_slot", "", "the numbers of these deputies, from 0",
+                    if_assigned(deputies_left));
+  table.add_scalars("slots_without_deputy", "", "the numbers of these slots, from 0",
+                    if_assigned(slots_left));
   table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
   table
       .add_scalar("not_assigned", "", "why there is no assignment; nothing if there is one",
                   result.failure)
       .is_in_json = false;  // there it is the failure of the whole
-  table.add_scalar("exit_code", "", "of the command", static_cast<int>(exit_code(result)));
+  table.add_scalar("exit_code", "", "the exit code of the command",
+                   static_cast<int>(exit_code(result)));
   TableView view = std::move(table).view(result.transfers, {result.transfers.size()});
   for (std::size_t i = 0; i < result.transfers.size(); ++i) {
     view.places_of_rows.emplace_back(i, fmt::format("/transfers/{}/transfer", i));
@@ -220,13 +225,14 @@ TableView costs_table(const AssignmentResult& result) {
   ResultTable<Row> table("costs", "", {"deputies", "slots"},
                          "The least velocity change of each deputy to each slot.");
   table.leave_rows_out_of_json();
-  table.add("deputy", "", "which, from 0", &Row::deputy);
-  table.add("slot", "", "which, from 0", &Row::slot);
+  table.add("deputy", "", "the number of the deputy, from 0", &Row::deputy);
+  table.add("slot", "", "the number of the slot, from 0", &Row::slot);
   table.add_if(has_time, "time_canonical", "", "of the transfer, in the canonical unit of time",
                [&](const Row& row) { return told_time(scene, times[*row.cost.time]); });
   table.add_if(has_time, "time_s", "s", "of the transfer",
                [&](const Row& row) { return times[*row.cost.time] * scene.units.time_s; });
-  table.add_if(has_time, "total_change_m_s", "m/s", "the sum of both magnitudes",
+  table.add_if(has_time, "total_change_m_s", "m/s",
+               "the sum of the magnitudes of both velocity changes",
                [](const Row& row) { return row.cost.total_change_m_s; });
   std::vector<Row> rows;
   for (std::size_t i = 0; i < result.costs.size(); ++i) {
@@ -243,12 +249,14 @@ TableView pairs_table(const AssignmentResult& result) {
   ResultTable<DeputyPair> table("pairs", "", {"pairs"},
                                 "How near two deputies come to each other while they fly.");
   table.leave_rows_out_of_json();
-  table.add("deputy", "", "of the pair, from 0", &DeputyPair::first);
-  table.add("other_deputy", "", "of the pair, from 0", &DeputyPair::second);
+  table.add("deputy", "", "the number of the deputy, from 0", &DeputyPair::first);
+  table.add("other_deputy", "", "the number of the other deputy of the pair, from 0",
+            &DeputyPair::second);
   table.add("time_canonical", "", "then, in the scene's canonical unit of time",
             [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
   table.add("time_s", "s", "then", [=](const DeputyPair& pair) { return pair.time * unit; });
-  table.add("least_separation_m", "m", "of the two", &DeputyPair::separation_m);
+  table.add("least_separation_m", "m", "the least separation of the two deputies",
+            &DeputyPair::separation_m);
   return std::move(table).view(result.pairs, {result.pairs.size()});
 }
 

@@ -31,8 +31,8 @@ using MotionPoint = const DeputyMotionPoint&;
 /// A larger error than this share of the separation at the time is no answer.
 constexpr double resolved_share = 0.01;
 
-/// How many rows the terminal's table has, besides that of the start: some eight, of which none
-/// comes at the place of the one before in its revolution.
+/// The number of rows of the terminal's table besides the start: about eight, such that two rows
+/// that follow each other are at different places of the revolution.
 std::size_t shown_times(const DeputyMotion& motion) {
   constexpr std::size_t usual = 8;
   const std::optional<double> period = nominal_period(motion.scene);
@@ -212,25 +212,31 @@ TableView deputy_motion_table(const DeputyMotion& motion) {
   table.add("time_s", "s", "since the start", [=](MotionPoint point) { return point.time * unit; });
   table.add_array("position_m", places, "m", "relative to the chief, along the frame's axes",
                   [](MotionPoint point) { return point.state.position_m; });
-  table.add_array("velocity_m_s", velocities, "m/s", "likewise",
+  table.add_array("velocity_m_s", velocities, "m/s",
+                  "velocity relative to the chief, along the frame's axes",
                   [](MotionPoint point) { return point.state.velocity_m_s; });
-  table.add("separation_m", "m", "the distance of the two",
+  table.add("separation_m", "m", "the distance between chief and deputy",
             [](MotionPoint point) { return separation_m(point.state); });
-  table.add_array("error_m_by_order", errors, "m",
-                  "from there to where the polynomials of the orders 1 to N have the deputy",
-                  &DeputyMotionPoint::errors_m);
+  table.add_array(
+      "error_m_by_order", errors, "m",
+      "the distance of the flown deputy from where the polynomials of the orders 1 to N have it",
+      &DeputyMotionPoint::errors_m);
   add_frame(table, frame, motion.coordinates);
-  table.add_scalar("verdict", "", "how near, how far and how wrong", deputy_motion_verdict(motion));
-  table.add_scalar("duration_s", "s", "of the motion", motion.points.back().time * unit);
-  table.add_scalar("times", "", "how many there are", motion.points.size());
-  table.add_scalar("largest_error_m", "m", "of the highest order", largest_errors_m.back());
-  table.add_scalars("largest_error_m_by_order", "m", "over all times, of the orders 1 to N",
-                    largest_errors_m);
+  table.add_scalar("verdict", "",
+                   "how near and how far the deputy comes, and how wrong the polynomials are",
+                   deputy_motion_verdict(motion));
+  table.add_scalar("duration_s", "s", "the duration of the motion",
+                   motion.points.back().time * unit);
+  table.add_scalar("times", "", "the number of times", motion.points.size());
+  table.add_scalar("largest_error_m", "m", "the largest error of the highest order",
+                   largest_errors_m.back());
+  table.add_scalars("largest_error_m_by_order", "m",
+                    "the largest errors over all times, of the orders 1 to N", largest_errors_m);
   table.add_scalar("is_resolved", "",
                    "whether the highest order is right to a hundredth of the separation",
                    is_resolved(motion));
   table.add_scalar("flight_floor_m", "m", "errors below this say nothing", motion.flight_floor_m);
-  table.add_scalar("exit_code", "", "of the command", 0);
+  table.add_scalar("exit_code", "", "the exit code of the command", 0);
   TableView view = std::move(table).view(motion.points, {motion.points.size()});
   view.places_of_rows = {{0, "/start"}, {motion.points.size() - 1, "/end"}};
   return view;

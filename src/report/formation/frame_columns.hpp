@@ -19,8 +19,8 @@ void add_frame(ResultTable<Row>& table, RelativeFrame frame, const CoordinatesAt
   add("frame", "the axes: RTN of the chief, or inertial", frame_name(frame));
   add("derivatives", "whether velocities are seen from the turning axes or from inertial ones",
       derivatives_name(frame));
-  add("coordinates", "of the polynomials at the start", name_of(coordinates.start));
-  add("end_coordinates", "of the polynomials at the end", name_of(coordinates.end));
+  add("coordinates", "coordinates of the polynomials at the start", name_of(coordinates.start));
+  add("end_coordinates", "coordinates of the polynomials at the end", name_of(coordinates.end));
   table.add_scalars("axes", "", "letters of the frame's axes", axis_letters(frame));
 }
 

@@ -52,9 +52,10 @@ void add_thrust(ResultTable<EnergyOptimalTransfer>& table, RelativeFrame frame,
   for (const std::string_view axis : axis_columns(frame)) {
     parts.push_back(fmt::format("{}_thrust_{}_m_s2", end, axis));
   }
-  table.add_array(end + "_thrust_m_s2", std::move(parts), "m/s^2",
-                  fmt::format("the acceleration at the {}, along the frame's axes then", end),
-                  where_found(thrust));
+  table.add_array(
+      end + "_thrust_m_s2", std::move(parts), "m/s^2",
+      fmt::format("the acceleration at the {}, along the frame's axes at that time", end),
+      where_found(thrust));
 }
 
 const EnergyOptimalTransfer* least_thrust(const TransferResult& result) {
@@ -74,38 +75,41 @@ TableView energy_optimal_table(const TransferResult& result) {
       "Thrust that lasts and takes the least integral of |u|^2 / 2, u its acceleration.");
   table.add("time_s", "s", "of the transfer", [=](Thrusted one) { return one.time * unit; });
   table.add(
-      "condition", "", "of the linear part that is inverted, states by costates",
+      "condition", "", "the condition of the linear part that is inverted, of states by costates",
       [](Thrusted one) { return one.condition > 0 ? std::optional(one.condition) : std::nullopt; });
   table.add("energy_m2_s3", "m^2/s^3", "the integral of |u|^2 / 2 along the flight",
             where_found(&EnergyOptimalTransfer::energy_m2_s3));
   add_by_thrust_order(table, orders, "energy_m2_s3", "m^2/s^3",
-                      "the same by the generating function of the orders 1 to N",
+                      "the same integral by the generating function of the orders 1 to N",
                       &EnergyOptimalAnswer::energy_m2_s3);
   table.add("change_m_s", "m/s", "the integral of |u| along the flight",
             where_found(&EnergyOptimalTransfer::change_m_s));
   table.add("largest_m_s2", "m/s^2", "the largest |u|, among the nodes of that integral",
             where_found(&EnergyOptimalTransfer::largest_m_s2));
-  table.add("exceeds_thrust", "", "whether that is more than the scene's largest_thrust_m_s2",
+  table.add("exceeds_thrust", "",
+            "whether the acceleration exceeds the scene's largest_thrust_m_s2 somewhere",
             &EnergyOptimalTransfer::exceeds_thrust);
   add_thrust(table, frame, "start", &EnergyOptimalTransfer::start_thrust_m_s2);
   add_thrust(table, frame, "end", &EnergyOptimalTransfer::end_thrust_m_s2);
   add_by_thrust_order(table, orders, "miss_m", "m",
-                      "how far from the wanted place the thrust of the orders 1 to N leads, flown",
+                      "the distances from the wanted place at which flights with the thrust of the "
+                      "orders 1 to N end",
                       &EnergyOptimalAnswer::miss_m);
-  add_by_thrust_order(table, orders, "velocity_miss_m_s", "m/s", "how far from the wanted velocity",
+  add_by_thrust_order(table, orders, "velocity_miss_m_s", "m/s",
+                      "the differences of these flights from the wanted velocity",
                       &EnergyOptimalAnswer::velocity_miss_m_s);
   const auto of_refined = [](auto value) {
     return where_found([value](Thrusted one) { return std::invoke(value, *one.refined); });
   };
-  table.add("refined_miss_m", "m", "of the answer that flying corrected",
+  table.add("refined_miss_m", "m", "the miss of the answer that flying corrected",
             of_refined(&EnergyOptimalAnswer::miss_m));
   table.add("refined_velocity_miss_m_s", "m/s", "likewise",
             of_refined(&EnergyOptimalAnswer::velocity_miss_m_s));
-  table.add_array("costates",
-                  {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
-                  "", "at the start, in the scene's canonical units along inertial axes",
-                  of_refined(&EnergyOptimalAnswer::costates));
-  table.add("refinement_flights", "", "that the correction took",
+  table.add_array(
+      "costates", {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
+      "", "the costates at the start, in the scene's canonical units along inertial axes",
+      of_refined(&EnergyOptimalAnswer::costates));
+  table.add("refinement_flights", "", "the number of flights that the correction took",
             &EnergyOptimalTransfer::refinement_flights);
   table.add("failure", "", "why there is none", &EnergyOptimalTransfer::failure);
   const auto rows = result.thrust ? result.thrust->transfers : std::vector<EnergyOptimalTransfer>();

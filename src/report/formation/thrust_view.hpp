@@ -14,7 +14,7 @@ TableView energy_optimal_table(const TransferResult& result);
 
 /// What the least of them takes, or why there is none; empty where none were asked for.
 std::string thrust_verdict(const TransferResult& result);
-/// Why there is none that was asked for; empty if there is.
+/// The reason why the thrust that was asked for was not found; empty if it was.
 std::string thrust_failure(const TransferResult& result);
 
 /// Lines of the terminal's table, and a section of the page.

@@ -173,7 +173,7 @@ std::string seconds_table_html(const TransferResult& result) {
   };
   row("jets at all times, one integration", seconds.propagation);
   row("singular times and conditions of all kinds", seconds.singularities);
-  row("inversions, one a time", seconds.inversion);
+  row("inversions, one for each time", seconds.inversion);
   row("boundary values, all orders", seconds.solution);
   row("the study, the sum of these", seconds.study());
   row("proof by flying, and refinement", seconds.proof);

@@ -26,7 +26,7 @@ std::optional<double> times(const std::optional<double>& value, double unit) {
   return value ? std::optional(*value * unit) : std::nullopt;
 }
 
-/// What `value` makes of an answer, none where there is none.
+/// What `value` makes of an answer; no value without an answer.
 template <class Value>
 auto of_answer(const TransferAnswer* answer, Value value) {
   return answer != nullptr ? std::optional(std::invoke(value, *answer)) : std::nullopt;
@@ -83,7 +83,8 @@ void add_orders(ResultTable<TransferPoint>& table, const Scene& scene) {
   const auto of_linear = [](auto value) {
     return [value](Point point) { return of_answer(answer_of_order(point, 1), value); };
   };
-  table.add("linear_total_change_m_s", "m/s", "the same of order 1",
+  table.add("linear_total_change_m_s", "m/s",
+            "the sum of the magnitudes of both velocity changes of order 1",
             of_linear(&TransferAnswer::total_change_m_s));
   table.add("linear_miss_m", "m", "the miss of order 1", of_linear(&TransferAnswer::miss_m))
       .is_in_csv = false;
@@ -92,10 +93,10 @@ void add_orders(ResultTable<TransferPoint>& table, const Scene& scene) {
                  values.push_back(of_answer(answer, &TransferAnswer::miss_m));
                });
   add_change_by_order(table, scene, "start_change_m_s_by_order",
-                      "the change at the start, of the orders 1 to N",
+                      "the velocity changes at the start, of the orders 1 to N",
                       &TransferAnswer::start_change_m_s);
   add_change_by_order(table, scene, "end_change_m_s_by_order",
-                      "the change at the end, of the orders 1 to N",
+                      "the velocity changes at the end, of the orders 1 to N",
                       &TransferAnswer::end_change_m_s);
 }
 
@@ -105,11 +106,14 @@ void add_refinement(ResultTable<TransferPoint>& table) {
       return of_answer(point.is_refined() ? &*point.refined : nullptr, value);
     };
   };
-  table.add("refined_total_change_m_s", "m/s", "of the answer that flying corrected",
+  table.add("refined_total_change_m_s", "m/s",
+            "the sum of both velocity changes of the answer that flying corrected",
             of_refined(&TransferAnswer::total_change_m_s));
-  table.add("refined_miss_m", "m", "its miss", of_refined(&TransferAnswer::miss_m));
+  table.add("refined_miss_m", "m", "the miss of the answer that flying corrected",
+            of_refined(&TransferAnswer::miss_m));
   table.add_if([](Point point) { return point.refined.has_value(); }, "refinement_flights", "",
-               "that the correction took", &TransferPoint::refinement_flights);
+               "the number of flights that the correction took",
+               &TransferPoint::refinement_flights);
 }
 
 /// What holds for the whole study.
@@ -126,16 +130,22 @@ void add_scalars(ResultTable<TransferPoint>& table, const TransferResult& result
       .is_in_json = false;  // summary.json has the row itself there
   table.add_scalar("is_first_or_last_time", "", "whether the least is at an end of the times",
                    best && last > 0 && (*best == 0 || *best == last));
-  table.add_scalar("times_between_listed", "", "further times that were answered",
+  table.add_scalar("times_between_listed", "",
+                   "the number of further times that were answered between the listed ones",
                    result.times_between);
   table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
-  table.add_scalar("chief_error_m", "m", "of the jet's chief from the flown one at the last time",
+  table.add_scalar("chief_error_m", "m",
+                   "the distance of the jet's chief from the flown one at the last time",
                    result.chief_error_m);
-  table.add_scalar("largest_hamilton_jacobi_residual", "", "of all times",
+  table.add_scalar("largest_hamilton_jacobi_residual", "",
+                   "the largest Hamilton-Jacobi residual of all times",
                    largest_hamilton_jacobi_residual(result));
-  table.add_scalar("hamilton_jacobi_floor", "", "its rounding floor", result.hamilton_jacobi_floor);
-  table.add_scalar("steps", "", "of the integration", result.statistics.steps);
-  table.add_scalar("exit_code", "", "of the command", static_cast<int>(exit_code(result)));
+  table.add_scalar("hamilton_jacobi_floor", "",
+                   "the rounding floor of the Hamilton-Jacobi residual",
+                   result.hamilton_jacobi_floor);
+  table.add_scalar("steps", "", "the number of steps of the integration", result.statistics.steps);
+  table.add_scalar("exit_code", "", "the exit code of the command",
+                   static_cast<int>(exit_code(result)));
 }
 
 }  // namespace
@@ -155,17 +165,22 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
       has_kind, "kind", "",
       "the generating function used; nothing where no kind exists, or in other coordinates",
       [](Point point) { return point.kind->name(); });
-  table.add("condition", "", "of its linear part",
+  table.add("condition", "", "the condition of the linear part of that generating function",
             [](Point point) { return point.kind ? condition(point.condition) : std::nullopt; });
-  table.add("position_condition", "", "of F1's: infinite where positions cannot be commanded",
+  table.add("position_condition", "",
+            "the condition of the linear part of F1; infinite where positions cannot be commanded",
             [](Point point) { return condition(point.position_condition); });
-  table.add("singular_distance_s", "s", "to the nearest singularity of F1; nothing without one",
+  table.add("singular_distance_s", "s",
+            "the time to the nearest singularity of F1; nothing without one",
             [=](Point point) { return times(point.singular_distance, unit); });
-  table.add("near_singular", "", "whether it is nearer to a singularity than the scene's margin",
+  table.add("near_singular", "",
+            "whether the time is nearer to a singularity than the scene's margin",
             &TransferPoint::is_near_singular);
   table.add("beyond_tolerance", "", "whether the highest order misses by more than the tolerance",
             &TransferPoint::is_beyond_tolerance);
-  table.add("answer", "", "which answer stands behind: refined, or of which order", answer_name);
+  table.add("answer", "",
+            "which answer the velocity changes are of: the refined one, or that of an order",
+            answer_name);
   table.add("exceeds_impulse", "", "whether an impulse is above the scene's largest_impulse_m_s",
             &TransferPoint::exceeds_impulse);
   table.add("keep_out_ratio", "",
@@ -181,21 +196,22 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
   table.add_array("end_change_m_s", axis_parts(frame, "end_change_", "_m_s"), "m/s",
                   "the velocity change at the end, along the frame's axes",
                   of_shown(&TransferAnswer::end_change_m_s));
-  table.add("total_change_m_s", "m/s", "the sum of both magnitudes",
+  table.add("total_change_m_s", "m/s", "the sum of the magnitudes of both velocity changes",
             of_shown(&TransferAnswer::total_change_m_s));
   table
-      .add("miss_m", "m", "the distance of the deputy, flown, from the wanted place",
+      .add("miss_m", "m", "the distance of the flown deputy from the wanted place",
            of_shown(&TransferAnswer::miss_m))
       .is_in_csv = false;
   add_orders(table, scene);
   add_refinement(table);
-  table.add("hamilton_jacobi_residual", "", "the worst scaled residual over all degrees",
+  table.add("hamilton_jacobi_residual", "",
+            "the largest scaled residual of the Hamilton-Jacobi equation over all degrees",
             &TransferPoint::hamilton_jacobi_residual);
   table.add("end_drift_m_per_revolution", "m a revolution",
-            "along the track, if nothing is done after the arrival", [](Point point) {
+            "the drift along the track if nothing is done after the arrival", [](Point point) {
               return point.drift ? std::optional(point.drift->per_revolution_m) : std::nullopt;
             });
-  table.add("failure", "", "what failed", failure_text);
+  table.add("failure", "", "the reason why there is no answer", failure_text);
   return table;
 }
 
@@ -219,20 +235,22 @@ TableView singular_times_table(const TransferResult& result) {
             [&](Singular singular) { return told_time(result.scene, singular.time); });
   table.add("time_s", "s", "since the start",
             [=](Singular singular) { return singular.time * unit; });
-  table.add("resolution_s", "s", "the time is known no better",
+  table.add("resolution_s", "s", "how far the singular time may be wrong",
             [=](Singular singular) { return singular.resolution * unit; });
   table.add("smallest_ratio", "", "the smallest singular value over the largest",
             &SingularTime::smallest_ratio);
   table.add("second_ratio", "", "the second smallest singular value over the largest",
             &SingularTime::second_ratio);
-  table.add("directions_lost", "", "singular values that rounding cannot tell from zero",
+  table.add("directions_lost", "",
+            "the number of singular values that rounding cannot tell from zero",
             &SingularTime::directions_lost);
   table.add_array("direction_inertial",
                   {"direction_inertial_x", "direction_inertial_y", "direction_inertial_z"}, "",
                   "the unit vector, inertial, that is not commanded; of F1, of the final position",
                   &SingularTime::direction);
   table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
-                  "the same along the chief's R, T, N then", &SingularTime::direction_rtn);
+                  "the same unit vector along the chief's R, T, N at that time",
+                  &SingularTime::direction_rtn);
   TableView view = std::move(table).view(result.singular_times, {result.singular_times.size()});
   const std::string f1 = parse_kind("F1", 3).name();
   for (std::size_t i = 0; i < result.singular_times.size(); ++i) {
@@ -255,15 +273,16 @@ TableView conditions_table(const TransferResult& result) {
             [&](std::size_t i) { return told_time(result.scene, conditions.times[i]); });
   table.add("time_s", "s", "since the start",
             [&](std::size_t i) { return conditions.times[i] * result.scene.units.time_s; });
-  table.add_array("condition", kinds, "", "of each kind; infinite where it is singular",
-                  [&](std::size_t i) {
+  table.add_array("condition", kinds, "",
+                  "the condition of each kind; infinite where it is singular", [&](std::size_t i) {
                     std::vector<std::optional<double>> values;
                     for (const double value : conditions.values[i]) {
                       values.push_back(condition(value));
                     }
                     return values;
                   });
-  table.add_scalars("kinds", "", "their names", kinds).is_in_json = false;
+  table.add_scalars("kinds", "", "the names of the kinds of generating functions", kinds)
+      .is_in_json = false;
   std::vector<std::size_t> rows(conditions.times.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   return std::move(table).view(rows, {rows.size()});
@@ -274,11 +293,13 @@ TableView budget_windows_table(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   ResultTable<BudgetWindow> table("budget_windows", "", {"budget_windows"},
                                   "Spans of transfer times that take no more than the budget.");
-  table.add("first_s", "s", "where it begins", [=](Window window) { return window.first * unit; });
-  table.add("last_s", "s", "where it ends", [=](Window window) { return window.last * unit; });
-  table.add("begins_at_first_time", "", "whether it begins before the times searched",
+  table.add("first_s", "s", "the time at which the window begins",
+            [=](Window window) { return window.first * unit; });
+  table.add("last_s", "s", "the time at which the window ends",
+            [=](Window window) { return window.last * unit; });
+  table.add("begins_at_first_time", "", "whether the window begins before the times searched",
             &BudgetWindow::begins_before);
-  table.add("ends_at_last_time", "", "whether it ends after the times searched",
+  table.add("ends_at_last_time", "", "whether the window ends after the times searched",
             &BudgetWindow::ends_after);
   table.keep_in_csv({});
   return std::move(table).view(result.budget_windows, {result.budget_windows.size()});
@@ -294,8 +315,8 @@ TableView impulses_table(const std::string& name, const std::string& place,
   table.add("time_s", "s", "since the start",
             [=](const Impulse& impulse) { return impulse.time * unit; });
   table.add_array("change_m_s", axis_parts(scene.transfer->frame, "change_", "_m_s"), "m/s",
-                  "the velocity change, along the frame's axes then", &Impulse::change_m_s);
-  table.add("magnitude_m_s", "m/s", "its magnitude",
+                  "the velocity change, along the frame's axes at that time", &Impulse::change_m_s);
+  table.add("magnitude_m_s", "m/s", "the magnitude of the velocity change",
             [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
   return std::move(table).view(impulses, {impulses.size()});
 }
@@ -322,12 +343,14 @@ TableView least_by_time_table(const TransferResult& result) {
   ResultTable<LeastChange> table("least_by_time", "/optimal_impulses", {"least_by_time"},
                                  "What optimal impulses cost in some of the transfer times.");
   table.add("time_s", "s", "of the transfer", [=](Least one) { return one.time * unit; });
-  table.add("linear_change_m_s", "m/s", "the least in the linear theory about the chief",
+  table.add("linear_change_m_s", "m/s",
+            "the least sum of velocity changes in the linear theory about the chief",
             &LeastChange::change_m_s);
-  table.add("flown_change_m_s", "m/s", "of the same impulses, corrected by flying",
+  table.add("flown_change_m_s", "m/s", "the sum of the same velocity changes, corrected by flying",
             &LeastChange::flown_m_s);
-  table.add("failure", "", "why there is none", &LeastChange::failure);
-  table.add("solver_failed", "", "whether the least may be less than this",
+  table.add("failure", "", "the reason why there is no answer", &LeastChange::failure);
+  table.add("solver_failed", "",
+            "whether the solver failed, so that the least may be less than this",
             &LeastChange::is_unproved);
   table.keep_in_csv({});
   const auto rows = result.optimal ? result.optimal->by_time : std::vector<LeastChange>();
@@ -342,7 +365,7 @@ TableView total_by_time_table(const TransferResult& result) {
   table.add("time_s", "s", "of the whole way", [=](Plan plan) { return plan.duration * unit; });
   table.add("total_change_m_s", "m/s", "the sum of the magnitudes of its impulses",
             &WaypointPlan::total_change_m_s);
-  table.add("forbidden", "", "what of it the scene does not allow", &WaypointPlan::forbidden);
+  table.add("forbidden", "", "what of the way the scene does not allow", &WaypointPlan::forbidden);
   table.keep_in_csv({});
   const auto rows = result.waypoints ? result.waypoints->plans : std::vector<WaypointPlan>();
   return std::move(table).view(rows, {rows.size()});

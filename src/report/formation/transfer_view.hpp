@@ -31,14 +31,15 @@ struct TransferCounts {
   std::size_t near_singular = 0;
   std::size_t beyond_tolerance = 0;       ///< among all
   std::size_t beyond_tolerance_away = 0;  ///< among those that are not near a singularity
-  std::size_t corrected_away = 0;         ///< of beyond_tolerance_away: set right by refinement
+  std::size_t corrected_away = 0;  ///< those of beyond_tolerance_away that refinement set right
   std::size_t unanswered_away = 0;
   std::size_t refined = 0;
   std::size_t refinement_failed = 0;
   std::size_t refinement_failed_away = 0;
-  std::size_t over_impulse = 0;   ///< proved, but with an impulse larger than the scene allows
-  std::size_t kept_out = 0;       ///< proved, of allowed impulses, but through the ellipsoid
-  std::size_t below_surface = 0;  ///< the same, outside of it, but below the surface
+  std::size_t over_impulse = 0;  ///< proved, but with an impulse larger than the scene allows
+  std::size_t kept_out = 0;      ///< proved, of allowed impulses, but through the ellipsoid
+  std::size_t below_surface =
+      0;  ///< proved, allowed and outside of the ellipsoid, but below the surface
 };
 TransferCounts count_points(const TransferResult& result);
 

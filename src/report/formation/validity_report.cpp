@@ -88,7 +88,7 @@ TableView validity_table(const ValidityResult& result) {
       .add("time_s", "s", "since the start",
            [=](const ReachRow& row) { return row.point.time * unit; })
       .level = 1;
-  table.add("order", "", "of the polynomials", of_entry(&ValidityEntry::order));
+  table.add("order", "", "the order of the polynomials", of_entry(&ValidityEntry::order));
   table.add("predicted_m", "m", "the separation expected from the decay of the jet's degrees",
             of_entry(&ValidityEntry::predicted_m));
   table.add("proved_m", "m",
@@ -106,15 +106,20 @@ TableView validity_table(const ValidityResult& result) {
   table.add("limit_start_coordinate", "",
             "the coordinate of that deputy's deviation with the largest part of the degree",
             of_limit(&ReachLimit::start_coordinate));
-  table.add("limit_start_degree", "", "that part", of_limit(&ReachLimit::start_degree));
+  table.add("limit_start_degree", "", "that coordinate's part of the degree",
+            of_limit(&ReachLimit::start_degree));
   table.add("limit_end_coordinate", "", "the coordinate in which the polynomials miss most",
             of_limit(&ReachLimit::end_coordinate));
-  table.add("limit_end_share", "", "its part of the miss, of 1", of_limit(&ReachLimit::end_share));
-  table.add_scalars("semi_axes", "",
-                    "of the ellipsoid of deviations along the axes, over the separation",
-                    settings.semi_axes);
-  table.add_scalar("samples", "", "random deputies of each ellipsoid", settings.samples);
-  table.add_scalar("flights", "", "of deputies with the full equations", result.flights);
+  table.add("limit_end_share", "", "that coordinate's part of the miss, 1 for all of it",
+            of_limit(&ReachLimit::end_share));
+  table.add_scalars(
+      "semi_axes", "",
+      "the semi-axes of the ellipsoid of deviations along the axes, in parts of the separation",
+      settings.semi_axes);
+  table.add_scalar("samples", "", "the number of random deputies of each ellipsoid",
+                   settings.samples);
+  table.add_scalar("flights", "", "the number of deputies that were flown with the full equations",
+                   result.flights);
   table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
   std::vector<ReachRow> rows;
   for (const ValidityPoint& point : result.points) {

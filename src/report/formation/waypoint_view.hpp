@@ -12,7 +12,7 @@ namespace hamjet::io {
 
 /// What the least of them costs, or why there is none; empty where none were asked for.
 std::string waypoint_verdict(const TransferResult& result);
-/// Why there is none that was asked for; empty if there is.
+/// The reason why the way that was asked for was not found; empty if it was.
 std::string waypoint_failure(const TransferResult& result);
 
 /// Lines of the terminal's table, and a section of the page.

@@ -181,7 +181,7 @@ std::vector<TableView> periodic_tables(const PeriodicStudy& study) {
       "A periodic orbit, or a family of them. Canonical numbers are in the scene's units; what is "
       "in parts of the orbit's size is so for positions and for momenta.");
   table.add_scalar("verdict", "", "the outcome in words", periodic_verdict(study));
-  table.add_scalar("hold", "", "what picks the first orbit", settings.hold);
+  table.add_scalar("hold", "", "the quantity that picks the first orbit", settings.hold);
   table
       .add_scalar("along", "", "what the family runs along; nothing for one orbit",
                   settings.family ? settings.family->along : std::string())
@@ -191,12 +191,12 @@ std::vector<TableView> periodic_tables(const PeriodicStudy& study) {
                   study.family.end)
       .may_lack = true;
   table.add_if([&](const FamilyMember&) { return settings.family.has_value(); }, "along_value", "",
-               "of what the family runs along, canonical",
+               "the value of what the family runs along, canonical",
                [&](const FamilyMember& one) { return told_along(study, one); });
-  table.add("period_canonical", "", "of one turn, canonical", [&](const FamilyMember& one) {
-    return told_time(study.scene, one.orbit.nodes.period);
-  });
-  table.add("period_s", "s", "of one turn", [&](const FamilyMember& one) {
+  table.add(
+      "period_canonical", "", "the period of one turn, canonical",
+      [&](const FamilyMember& one) { return told_time(study.scene, one.orbit.nodes.period); });
+  table.add("period_s", "s", "the period of one turn", [&](const FamilyMember& one) {
     return one.orbit.nodes.period * study.scene.units.time_s;
   });
   table.add("energy", "", "the Hamiltonian, canonical",
@@ -214,11 +214,13 @@ std::vector<TableView> periodic_tables(const PeriodicStudy& study) {
                     return told_state(study.scene, {start.begin(), start.end()});
                   });
   table.add("closing", "",
-            "of one flight from the start over the period, in parts of the orbit's size",
+            "by how much one flight from the start over the period fails to close, in parts of the "
+            "orbit's size",
             [](const FamilyMember& one) { return one.orbit.closing; });
-  table.add("mismatch", "", "of the arcs of the search, the largest, in the same parts",
+  table.add("mismatch", "",
+            "the largest mismatch of the arcs of the search, in parts of the orbit's size",
             [](const FamilyMember& one) { return one.orbit.mismatch; });
-  table.add("newton_steps", "", "of the search",
+  table.add("newton_steps", "", "the number of Newton steps of the search",
             [](const FamilyMember& one) { return one.orbit.iterations; });
   const std::size_t indices = index_count(study);
   if (indices > 0) {
@@ -232,12 +234,12 @@ std::vector<TableView> periodic_tables(const PeriodicStudy& study) {
     add("stability_indices", "stability_index",
         "(l + 1/l)/2 of the multipliers l but the pair 1; stable between -1 and 1",
         &Monodromy::indices, &real_part);
-    add("stability_indices_imag", "stability_index_imag", "their imaginary parts",
-        &Monodromy::indices, &imaginary_part);
+    add("stability_indices_imag", "stability_index_imag",
+        "the imaginary parts of the stability indices", &Monodromy::indices, &imaginary_part);
     add("multipliers", "multiplier", "the multiplier on or outside the unit circle of each index",
         &Monodromy::multipliers, &real_part);
-    add("multipliers_imag", "multiplier_imag", "their imaginary parts", &Monodromy::multipliers,
-        &imaginary_part);
+    add("multipliers_imag", "multiplier_imag", "the imaginary parts of these multipliers",
+        &Monodromy::multipliers, &imaginary_part);
   }
   table.add("stable", "", "whether all multipliers lie on the unit circle",
             [](const FamilyMember& one) { return one.orbit.monodromy.is_stable(); });
@@ -245,7 +247,8 @@ std::vector<TableView> periodic_tables(const PeriodicStudy& study) {
             "by how much the flow's direction and the energy's gradient fail to have the "
             "multiplier 1",
             [](const FamilyMember& one) { return one.orbit.monodromy.trivial_defect; });
-  table.add("determinant_defect", "", "of the monodromy matrix, from 1",
+  table.add("determinant_defect", "",
+            "by how much the determinant of the monodromy matrix differs from 1",
             [](const FamilyMember& one) { return one.orbit.monodromy.determinant_defect; });
   table.add("symplectic_defect", "", "the largest entry of M^T J M - J of the monodromy matrix M",
             [](const FamilyMember& one) { return one.orbit.monodromy.symplectic_defect; });

@@ -58,11 +58,13 @@ class KeplerOrbit {
           root([&](double E) { return E - e * std::sin(E) - last; }, last - 1, last + 1);
       return std::min(start_, (1 - e * std::cos(anomaly)) / inverse_a_);
     }
-    // A parabola's perigee is met by all that come down, as its time is not told here.
+    // On a parabola, whose time equation is not solved here, whatever comes down counts as passing
+    // the perigee.
     if (!(e > 1) || inverse_a_ == 0) return radial_ * time >= 0 ? start_ : perigee_;
     const double first = sine - std::asinh(sine / e), last = first + time * rate;
     if (first * last <= 0) return perigee_;
-    const double most = std::asinh(std::abs(last) / (e - 1));  // as e sinh F - F > (e - 1) sinh F
+    const double most =
+        std::asinh(std::abs(last) / (e - 1));  // because e sinh F - F > (e - 1) sinh F
     const double anomaly =
         root([&](double F) { return e * std::sinh(F) - F - std::abs(last); }, 0, most);
     return std::min(start_, (1 - e * std::cosh(anomaly)) / inverse_a_);

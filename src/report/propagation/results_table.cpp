@@ -20,7 +20,7 @@ struct Column {
   std::string heading;
   std::string explanation;  ///< empty: said with another column
   std::function<std::string(const RunResult&)> cell;
-  bool is_of_failed_runs = false;  ///< whether it says something of those, too
+  bool is_of_failed_runs = false;  ///< whether the column also says something of failed runs
 };
 
 std::string size_text(double value) { return fmt::format("{:.1e}", value); }

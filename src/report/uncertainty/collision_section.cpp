@@ -74,7 +74,8 @@ std::string moment_text(double seconds) {
 /// What one order less makes of the probability.
 std::string lower_order_text(const CollisionProbability& p, int order) {
   if (!(p.standard_error_of_change > 0)) {
-    return fmt::format("  order {} decides alike on every sample that was compared\n", order - 1);
+    return fmt::format("  order {} gives the same answer for every sample that was compared\n",
+                       order - 1);
   }
   if (!(p.probability > 0)) {
     return fmt::format("  by order {} it is {:.1e} +- {:.1e}\n", order - 1,

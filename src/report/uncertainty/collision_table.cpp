@@ -18,15 +18,20 @@ struct TimeRow {
 
 template <class Row>
 void add_probability(ResultTable<Row>& table, const CollisionProbability& p) {
-  table.add_scalar("probability", "", "of coming nearer than the radius", p.probability);
+  table.add_scalar("probability", "",
+                   "the probability that the spacecraft come nearer than the radius",
+                   p.probability);
 }
 template <class Row>
 void add_interval(ResultTable<Row>& table, const CollisionProbability& p) {
-  table.add_scalars("interval", "", "of the confidence: what samples and paths leave",
-                    std::array{p.lower, p.upper});
+  table.add_scalars(
+      "interval", "",
+      "the interval of the probability at that confidence, for what samples and paths leave open",
+      std::array{p.lower, p.upper});
   table.add_scalar("path_error_m", "m", "by how much distances along a path may be wrong",
                    p.path_error);
-  table.add_scalar("standard_error", "", "of the probability, by its samples", p.standard_error);
+  table.add_scalar("standard_error", "", "the standard error of the probability by its samples",
+                   p.standard_error);
 }
 
 std::vector<const UncertainApproach*> approaches_of(const CollisionResult& result) {
@@ -42,39 +47,45 @@ TableView collision_table(const CollisionResult& result) {
   ResultTable<TimeRow> table("collision", "/collision", {"times"},
                              "How likely chief and deputy are to come nearer than the radius.");
   table.leave_rows_out_of_json();
-  table.add_scalar("radius_m", "m", "of both together", result.watch.radius_m);
-  table.add_scalars("window_s", "s", "that was looked at, after the start",
+  table.add_scalar("radius_m", "m", "the sum of the radii of both spacecraft",
+                   result.watch.radius_m);
+  table.add_scalars("window_s", "s", "the window of time that was looked at, after the start",
                     std::array{result.from_s, result.to_s});
-  table.add_scalar("window_widened", "", "whether it is wider than the scene, to hold a passage",
+  table.add_scalar("window_widened", "",
+                   "whether the window is wider than the scene's, so that it holds a whole passage",
                    result.is_widened);
   table.add_scalar("event", "", "what counts as a collision",
                    collision_event_names[static_cast<std::size_t>(result.watch.event)]);
-  table.add_scalar("order", "", "of the polynomials", result.order);
+  table.add_scalar("order", "", "the order of the polynomials", result.order);
   table.add_scalar("sampling", "", "how samples were drawn",
                    collision_sampling_names[static_cast<std::size_t>(p.sampling)]);
   add_probability(table, p);
-  table.add_scalar("confidence", "", "of the intervals", result.watch.confidence);
+  table.add_scalar("confidence", "", "the confidence of the intervals", result.watch.confidence);
   add_interval(table, p);
-  table.add_scalar("samples", "", "that were drawn; 0 where no path comes near", p.samples);
-  table.add_scalar("hits", "", "samples that come nearer", p.hits);
-  table.add_scalar("equivalent_samples", "", "so many plain ones would tell as much",
+  table.add_scalar("samples", "",
+                   "the number of samples that were drawn; 0 where no path comes near", p.samples);
+  table.add_scalar("hits", "", "the number of samples that come nearer than the radius", p.hits);
+  table.add_scalar("equivalent_samples", "", "the number of plain samples that would tell as much",
                    p.equivalent_samples);
   table.add_scalar("change_from_lower_order", "",
                    "the probability by polynomials of one order less, less that of this one",
                    p.change_from_lower_order);
-  table.add_scalar("standard_error_of_change", "", "of that difference",
+  table.add_scalar("standard_error_of_change", "", "the standard error of that difference",
                    p.standard_error_of_change);
   table
-      .add_scalar("sampled_radius_m", "m", "of the sphere whose entries are drawn",
+      .add_scalar("sampled_radius_m", "m", "the radius of the sphere into which entries are drawn",
                   p.sampled_radius)
       .is_in_json = p.sampled_radius.has_value();
   table
       .add_scalar("largest_difference_m", "m",
-                  "seen between the least distances of a linear path and of the polynomials'",
+                  "the largest difference seen between the least distances of a linear path and of "
+                  "the polynomials' path",
                   p.largest_difference)
       .is_in_json = p.largest_difference.has_value();
   table.add("time_s", "s", "since the start, in equal parts of the window", &TimeRow::time_s);
-  table.add("probability_by_time", "", "of having come nearer by then", &TimeRow::probability);
+  table.add("probability_by_time", "",
+            "the probability that the spacecraft have come nearer than the radius by then",
+            &TimeRow::probability);
   std::vector<TimeRow> rows;
   for (std::size_t k = 0; k < p.times.size(); ++k) rows.push_back({p.times[k], p.by_time[k]});
   return std::move(table).view(rows, {rows.size()});
@@ -85,7 +96,8 @@ TableView whole_passage_table(const CollisionResult& result) {
   const bool is_cut = result.of_whole_passage.has_value();
   ResultTable<int> table("whole_passage", "/collision/whole_passage", {},
                          "The same of the whole passages where an edge of the window cuts one.");
-  table.add_scalars("window_s", "s", "that holds them, after the start",
+  table.add_scalars("window_s", "s",
+                    "the window of time that holds whole passages, after the start",
                     std::array{is_cut ? result.whole_from_s : result.from_s,
                                is_cut ? result.whole_to_s : result.to_s});
   add_probability(table, p);
@@ -97,17 +109,25 @@ TableView least_separation_table(const CollisionResult& result) {
   const LeastSeparations& least = result.separations;
   ResultTable<int> table("least_separation", "/collision/least_separation", {},
                          "How near chief and deputy come in the window.");
-  table.add_scalar("samples", "", "plain ones", least.samples);
-  table.add_scalars("shares", "", "of all cases", least.shares);
-  table.add_scalars("separations_m", "m", "below which these shares have their least separation",
+  table.add_scalar("samples", "", "the number of plain samples", least.samples);
+  table.add_scalars("shares", "", "shares of all cases", least.shares);
+  table.add_scalars("separations_m", "m",
+                    "the separations below which these shares have their least separation",
                     least.separations);
-  table.add_scalars("errors_m", "m", "by how much these may be wrong beside their sampling",
+  table.add_scalars("errors_m", "m",
+                    "by how much these separations may be wrong beside their sampling",
                     least.errors);
-  table.add_scalar("flights", "", "of samples with the full equations", least.flights);
-  table.add_scalar("flight_difference_m", "m", "of the least separations of these, at most",
-                   least.flight_difference);
-  table.add_scalars("lower_m", "m", "lower ends of their intervals", least.lower);
-  table.add_scalars("upper_m", "m", "upper ends; infinite above the largest sample", least.upper);
+  table.add_scalar("flights", "", "the number of samples that were flown with the full equations",
+                   least.flights);
+  table.add_scalar(
+      "flight_difference_m", "m",
+      "the largest difference of the least separations between flights and polynomials",
+      least.flight_difference);
+  table.add_scalars("lower_m", "m", "the lower ends of the intervals of these separations",
+                    least.lower);
+  table.add_scalars("upper_m", "m",
+                    "the upper ends of these intervals; infinite above the largest sample",
+                    least.upper);
   return std::move(table).view({0}, {});
 }
 
@@ -117,23 +137,27 @@ TableView approaches_table(const CollisionResult& result) {
                                               "Closest approaches of the means in the window, and "
                                               "in whole passages that an edge of it cuts.");
   table.add("time_s", "s", "since the start", &UncertainApproach::time_s);
-  table.add("in_window", "", "whether it is in `window_s`, not only in that of the whole passage",
+  table.add("in_window", "",
+            "whether the approach is in `window_s`, not only in the window of the whole passage",
             &UncertainApproach::is_in_window);
-  table.add("distance_m", "m", "of the means", &UncertainApproach::distance_m);
-  table.add("speed_m_s", "m/s", "of the means, relative", &UncertainApproach::speed_m_s);
-  table.add("time_deviation_s", "s", "standard deviation of the time, linear",
+  table.add("distance_m", "m", "the distance between the means", &UncertainApproach::distance_m);
+  table.add("speed_m_s", "m/s", "the relative speed of the means", &UncertainApproach::speed_m_s);
+  table.add("time_deviation_s", "s", "the standard deviation of the time, in the linear theory",
             &UncertainApproach::time_deviation_s);
-  table.add("distance_deviation_m", "m", "standard deviation of the distance, linear",
+  table.add("distance_deviation_m", "m",
+            "the standard deviation of the distance, in the linear theory",
             &UncertainApproach::distance_deviation_m);
-  table.add("flights", "", "of random deviations to the times that the polynomials tell",
+  table.add("flights", "",
+            "the number of flights of random deviations to the times that the polynomials tell",
             &UncertainApproach::flights);
   table.add("polynomials_hold", "",
             "whether the polynomials are right to a tenth of the distance or the radius",
             [=](const UncertainApproach* approach) { return approach->holds(radius_m); });
   const auto has_flights = [](const UncertainApproach* row) { return row->flights > 0; };
-  table.add_if(has_flights, "position_error_m", "m", "of the polynomials, at most",
+  table.add_if(has_flights, "position_error_m", "m",
+               "the largest error of the polynomials' position",
                &UncertainApproach::position_error_m);
-  table.add_if(has_flights, "time_error_s", "s", "of the polynomials, at most",
+  table.add_if(has_flights, "time_error_s", "s", "the largest error of the polynomials' time",
                &UncertainApproach::time_error_s);
   const auto rows = approaches_of(result);
   TableView view = std::move(table).view(rows, {rows.size()});
@@ -162,20 +186,26 @@ TableView short_encounter_table(const CollisionResult& result) {
                     });
   };
   add("foster", "", "the probability by the formula of Foster and Estes", &ShortEncounter::foster);
-  add("alfano", "", "the same by that of Alfano", &ShortEncounter::alfano);
-  add("chan", "", "by that of Chan, which takes the ellipse of deviations for a circle",
+  add("alfano", "", "the probability by the formula of Alfano", &ShortEncounter::alfano);
+  add("chan", "",
+      "the probability by the formula of Chan, which takes the ellipse of deviations for a circle",
       &ShortEncounter::chan);
-  add_axes("offset_m", "of the means across the velocity, along the principal axes",
-           &ShortEncounter::offset);
-  add_axes("deviation_m", "standard deviations along these", &ShortEncounter::deviation);
-  add("passage_s", "s", "in which they pass, to each side", &ShortEncounter::passage);
-  add("departure", "", "of the motion from a straight one, in standard deviations",
+  add_axes(
+      "offset_m",
+      "the distance of the means across the velocity, along the principal axes of the deviations",
+      &ShortEncounter::offset);
+  add_axes("deviation_m", "the standard deviations along the same axes",
+           &ShortEncounter::deviation);
+  add("passage_s", "s",
+      "the time that the spacecraft take to pass each other, to each side of the approach",
+      &ShortEncounter::passage);
+  add("departure", "", "the departure of the motion from a straight one, in standard deviations",
       &ShortEncounter::departure);
   table.add_if(has_plane, "cut_by_window", "", "whether an edge of `window_s` cuts the passage",
                &UncertainApproach::is_cut);
   add("holds", "",
-      "whether the formulas do: a departure below 0.1, and no cut but one that `whole_passage` has "
-      "the probability without",
+      "whether the formulas hold: the departure is below 0.1, and the passage is not cut, or "
+      "`whole_passage` has the probability without the cut",
       &ShortEncounter::holds);
   const auto rows = approaches_of(result);
   TableView view = std::move(table).view(rows, {rows.size()});

@@ -19,10 +19,11 @@ struct MomentsRow {
   std::string polynomials = {};
   std::string told_in = {};
   StateComponent component = {};
-  Eigen::Index index = 0;                            ///< of the component
-  const Cumulants* moments = nullptr;                ///< null where there are none
-  const std::vector<Cumulants>* by_order = nullptr;  ///< that they are of; null of flown ones
-  std::size_t order = 0;                             ///< in these, from 0
+  Eigen::Index index = 0;              ///< index of the component
+  const Cumulants* moments = nullptr;  ///< null if there are no moments
+  const std::vector<Cumulants>* by_order =
+      nullptr;            ///< the moments of all orders; null for flown samples
+  std::size_t order = 0;  ///< place in `by_order`, from 0
   const Cumulants* linear = nullptr;
   const FlownMoments* flown = nullptr;  ///< null of polynomials
 };
@@ -61,45 +62,52 @@ auto of_all(Member member) {
 /// The moments of `size` components.
 void add_moments(MomentsColumns& table, std::size_t whole, Eigen::Index size) {
   const auto of = [](auto member) { return of_component(&MomentsRow::moments, member); };
-  add(table, has_moments, "mean", "in the component's unit", of(&Cumulants::mean));
-  add(table, has_moments, "standard_deviation", "in the component's unit",
+  add(table, has_moments, "mean", "the mean, in the component's unit", of(&Cumulants::mean));
+  add(table, has_moments, "standard_deviation", "the standard deviation, in the component's unit",
       of(&Cumulants::standard_deviations));
   const auto m = static_cast<std::size_t>(size);
-  TableColumn& covariance =
-      table.add_array("covariance", std::vector<std::string>(m * m), "", "of all components",
-                      [](const MomentsRow& row) -> std::optional<std::vector<double>> {
-                        if (!has_moments(row)) return std::nullopt;
-                        const Matrix<double> matrix = row.moments->covariance().transpose();
-                        return std::vector(matrix.data(), matrix.data() + matrix.size());
-                      });
+  TableColumn& covariance = table.add_array(
+      "covariance", std::vector<std::string>(m * m), "", "the covariance of all components",
+      [](const MomentsRow& row) -> std::optional<std::vector<double>> {
+        if (!has_moments(row)) return std::nullopt;
+        const Matrix<double> matrix = row.moments->covariance().transpose();
+        return std::vector(matrix.data(), matrix.data() + matrix.size());
+      });
   covariance.level = whole;
   covariance.is_in_csv = false;
   covariance.lengths = {m, m};
-  add(table, has_moments, "skewness", "of the component alone; 0 of a Gaussian",
+  add(table, has_moments, "skewness", "the skewness of the component alone; 0 for a Gaussian one",
       of(&Cumulants::skewness));
-  add(table, has_moments, "excess_kurtosis", "of the component alone; 0 of a Gaussian",
+  add(table, has_moments, "excess_kurtosis",
+      "the excess kurtosis of the component alone; 0 for a Gaussian one",
       of(&Cumulants::excess_kurtosis));
-  add(table, has_moments, "rank", "of the covariance", of_all(&Cumulants::rank), whole);
-  add(table, has_moments, "mardia_skewness", "of all components together, after Mardia (1970)",
+  add(table, has_moments, "rank", "the rank of the covariance", of_all(&Cumulants::rank), whole);
+  add(table, has_moments, "mardia_skewness",
+      "the skewness of all components together, after Mardia (1970)",
       of_all(&Cumulants::mardia_skewness), whole);
-  add(table, has_moments, "mardia_excess_kurtosis", "likewise; 0 of a Gaussian",
+  add(table, has_moments, "mardia_excess_kurtosis",
+      "the excess kurtosis of all components together, after Mardia (1970); 0 for a Gaussian "
+      "distribution",
       of_all(&Cumulants::mardia_excess_kurtosis), whole);
   add(table, has_moments, "negentropy",
-      "how non-Gaussian the distribution is, in nats; leading terms, unless that is sure",
+      "how far the distribution is from a Gaussian one, in nats; its leading terms alone where it "
+      "is not sure",
       of_all(&Cumulants::negentropy), whole);
 }
 
-/// What is known of the distribution of an order beside those of others.
+/// Adds the columns that compare the distribution of an order with those of other orders.
 void add_orders(MomentsColumns& table, std::size_t whole) {
   add(
       table, has_order, "negentropy_is_sure",
-      "whether it is more than its leading terms, and the order beside it says nearly the same",
+      "whether the negentropy is more than its leading terms, and nearly that of the order beside "
+      "it",
       [](const MomentsRow& row) { return is_negentropy_sure(*row.by_order, row.order); }, whole);
   add(table, has_order, "divergence_from_linear",
-      "to the linear theory's Gaussian distribution, in nats", divergence_of, whole);
+      "the divergence of the distribution from the linear theory's Gaussian one, in nats",
+      divergence_of, whole);
   add(
       table, has_order, "probability_error_of_linear",
-      "by how much a probability by that may be wrong, at most",
+      "the largest error of a probability by the linear theory's distribution",
       [](const MomentsRow& row) { return largest_error_of_probability(divergence_of(row)); },
       whole);
 }
@@ -107,14 +115,16 @@ void add_orders(MomentsColumns& table, std::size_t whole) {
 /// What moments of samples scatter by.
 void add_scatter(MomentsColumns& table) {
   const auto of = [](auto member) { return of_component(&MomentsRow::flown, member); };
-  add(table, has_scatter, "mean_scatter",
-      "one standard deviation that the mean of so many samples scatters by",
+  add(table, has_scatter, "mean_scatter", "the standard deviation of the mean of so many samples",
       of(&FlownMoments::mean_error));
-  add(table, has_scatter, "standard_deviation_scatter", "likewise of the standard deviation",
+  add(table, has_scatter, "standard_deviation_scatter",
+      "the standard deviation of the standard deviation of so many samples",
       of(&FlownMoments::deviation_error));
-  add(table, has_scatter, "skewness_scatter", "likewise of the skewness",
+  add(table, has_scatter, "skewness_scatter",
+      "the standard deviation of the skewness of so many samples",
       of(&FlownMoments::skewness_error));
-  add(table, has_scatter, "excess_kurtosis_scatter", "likewise of the excess kurtosis",
+  add(table, has_scatter, "excess_kurtosis_scatter",
+      "the standard deviation of the excess kurtosis of so many samples",
       of(&FlownMoments::kurtosis_error));
 }
 
@@ -140,33 +150,37 @@ void add_keys(MomentsColumns& table, const UncertaintyResult& result) {
   add("state", "\"chief\", \"deputy\" or \"relative\", the deputy less the chief",
       &MomentsRow::state)
       .level = 1;
-  add("polynomials", "the coordinates that they are in; \"flown\" of samples",
+  add("polynomials", "the coordinates of the polynomials; \"flown\" for samples that were flown",
       &MomentsRow::polynomials)
       .level = 1;
-  add("told_in", "the frame or the coordinates of the components", &MomentsRow::told_in).level = 1;
-  TableColumn& order = table.add_if(has_order, "order", "", "of the polynomials",
+  add("told_in", "the frame or the coordinates that the components are in", &MomentsRow::told_in)
+      .level = 1;
+  TableColumn& order = table.add_if(has_order, "order", "", "the order of the polynomials",
                                     [](const MomentsRow& row) { return row.order + 1; });
   order.level = 1;
-  add("component", "of the state", [](const MomentsRow& row) { return row.component.name; });
-  add("unit", "of the component; nothing where that is canonical",
+  add("component", "the component of the state",
+      [](const MomentsRow& row) { return row.component.name; });
+  add("unit", "the unit of the component; nothing where it is canonical",
       [](const MomentsRow& row) { return row.component.unit; });
 }
 
 void add_scalars(MomentsColumns& table, const UncertaintyResult& result) {
   const UncertaintySettings& settings = *result.scene.uncertainty;
-  table.add_scalar("coordinates", "", "the scene's", name_of(result.coordinates));
-  table.add_scalar("frame", "", "of the results", frame_name(settings.frame));
+  table.add_scalar("coordinates", "", "the coordinates that the scene asks for",
+                   name_of(result.coordinates));
+  table.add_scalar("frame", "", "the frame of the results", frame_name(settings.frame));
   table.add_scalar("derivatives", "",
                    "whether velocities are seen from the turning axes or from inertial ones",
                    derivatives_name(settings.frame));
-  table.add_scalar("units", "", "of the components",
+  table.add_scalar("units", "", "the units of the components",
                    "m, m/s; in other coordinates canonical, by the chief's distance at the start");
   table.add_scalar("verdict", "", "the outcome in words", uncertainty_verdict(result));
   table.add_scalars("notes", "", "what to know beside the numbers", uncertainty_notes(result));
   table.add_scalar("misleading_probability", "",
-                   "from which error of a probability on the linear covariance misleads",
+                   "the error of a probability from which on the linear covariance misleads",
                    misleading_probability);
-  table.add_scalar("samples", "", "that were flown", settings.samples < 2 ? 0 : settings.samples);
+  table.add_scalar("samples", "", "the number of samples that were flown",
+                   settings.samples < 2 ? 0 : settings.samples);
 }
 
 std::vector<MomentsRow> rows_of_file(const UncertaintyResult& result) {

@@ -14,16 +14,16 @@ namespace hamjet::io {
 /// What another study adds to the report of `hamjet uncertainty`: a member of summary.json, lines
 /// for the terminal, charts under a heading of the page, and files.
 struct UncertaintySection {
-  std::string key;                    ///< of summary.json
-  nlohmann::ordered_json json;        ///< its value
+  std::string key;                    ///< the key in summary.json
+  nlohmann::ordered_json json;        ///< the value of that key
   std::string verdict;                ///< a sentence behind that of the moments; or empty
   std::vector<std::string> warnings;  ///< why it is not to be trusted, a sentence each, for both
   std::string table;                  ///< for the terminal, below the moments
-  std::string title;                  ///< of the page's section
+  std::string title;                  ///< title of the page's section
   std::string html;                   ///< above the charts
   std::vector<Chart> charts;          ///< not fitted
   std::vector<ReportFile> files;
-  std::vector<std::string> failed_checks;  ///< that the scene asks for, a sentence each
+  std::vector<std::string> failed_checks;  ///< checks of the scene that failed, a sentence each
 };
 
 /// `summary.json`.

@@ -226,7 +226,8 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
   // Those that the orbit has not come last.
   const auto last = std::find_if(compared.rbegin(), compared.rend(),
                                  [](const auto& one) { return one.refusal.empty(); });
-  constexpr double alike = 0.9;  // of two negentropies, which may be leading terms alone
+  constexpr double alike =
+      0.9;  // a ratio of negentropies that counts as alike: they may be leading terms alone
   if (last != compared.rend() && order > 1 &&
       compared.front().negentropy < alike * last->negentropy) {
     text += fmt::format(

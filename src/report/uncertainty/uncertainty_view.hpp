@@ -22,7 +22,8 @@ struct MomentsFamily {
   const std::vector<Cumulants>* by_order;
   const Cumulants* linear;  ///< the linear theory's Gaussian distribution, told alike
   std::vector<StateComponent> components;
-  bool is_compared = false;  ///< of `uncertainty.coordinates`, beside the scene's own
+  bool is_compared =
+      false;  ///< whether `uncertainty.coordinates` asks for them, beside the scene's own
 };
 /// All that were computed, Cartesian ones first; at the last time those that are compared, too.
 std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
@@ -32,10 +33,10 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
 /// nearest first; with whatever the orbit has not, and why.
 struct GaussianityInCoordinates {
   std::string coordinates;
-  double negentropy = 0;       ///< of the highest order
+  double negentropy = 0;       ///< negentropy of the highest order
   bool is_sure = true;         ///< see is_negentropy_sure
-  double error_of_linear = 0;  ///< of a probability, at most
-  std::string refusal;         ///< not empty: why there are none
+  double error_of_linear = 0;  ///< largest error of a probability by the linear theory
+  std::string refusal;         ///< if not empty, the reason why the orbit lacks them
 };
 std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
                                                                  const UncertainState& state);
@@ -64,7 +65,7 @@ std::string uncertainty_answer(const UncertaintyResult& result);
 /// Whether the linear covariance misleads, and in which coordinates the distribution stays
 /// Gaussian.
 std::string uncertainty_judgement(const UncertaintyResult& result);
-/// Both, one after the other.
+/// Answer and judgement, one after the other.
 std::string uncertainty_verdict(const UncertaintyResult& result);
 
 /// What a user must know beside the numbers, a sentence each: a covariance that was mended, noise

@@ -253,7 +253,7 @@ class TokenScanner {
   struct Level {
     bool is_array = false;
     bool in_value = false;         ///< a value comes next, not a key
-    bool is_within_value = false;  ///< for the parser the bracket is a part of a value
+    bool is_within_value = false;  ///< the parser takes such a bracket as a part of a value
     std::size_t dots = 0;
   };
   Level& level() { return levels_.back(); }

@@ -148,9 +148,11 @@ std::vector<SceneKey> earth_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const EarthSettings preset;
   return {{"gravity_degree", form::integer(2, SphericalHarmonicField::highest_degree),
-           absent::value(preset.degree), "of the harmonics of the Earth's field", owner},
+           absent::value(preset.degree), "the highest degree of the harmonics of the Earth's field",
+           owner},
           {"gravity_order", form::integer(0, SphericalHarmonicField::highest_degree),
-           absent::other("`gravity_degree`"), "of the harmonics; 0 leaves zonal ones", owner},
+           absent::other("`gravity_degree`"),
+           "the highest order of the harmonics; 0 leaves zonal ones", owner},
           {"sun", form::boolean(), absent::value(preset.has_sun), "whether it attracts", owner},
           {"moon", form::boolean(), absent::value(preset.has_moon), "whether it attracts", owner},
           {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),
@@ -173,7 +175,7 @@ std::vector<SceneKey> epoch_keys() {
   keys.push_back({"axes",
                   form::choice(axes_names),
                   absent::other("`\"GCRF\"`, or those of the message"),
-                  "in which the model earth is given orbits, and messages are written",
+                  "axes in which orbits of the model earth are given, and messages are written",
                   {orbits}});
   return keys;
 }
@@ -268,7 +270,7 @@ CartesianState in_gcrf(const TableReader& table, const CartesianState& state,
 }
 
 bool is_at_start(const EarthSettings& earth, const Epoch& epoch, std::string_view time_system) {
-  // Times of TDB are rounded where they become those of TT.
+  // Times of TDB are rounded to this when they are converted to TT.
   constexpr double rounding_s = 1e-9;
   const Instant start{parse_epoch(earth.epoch_tt).value()};
   const TimeSystem system = time_system_named(time_system).value();

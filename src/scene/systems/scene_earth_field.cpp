@@ -83,7 +83,7 @@ std::vector<SceneKey> earth_field_keys() {
   return {{"tide_system",
            form::choice(tide_systems),
            absent::other("of the file"),
-           "of a file that does not say it; the permanent tide is taken out",
+           "the tide system of a file that does not say it; the permanent tide is taken out",
            {"earth"}}};
 }
 

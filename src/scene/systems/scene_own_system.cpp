@@ -83,9 +83,10 @@ std::vector<SceneKey> own_keys() {
   const auto table_of = [&](std::string words) { return form::words(std::move(words), of_table); };
   const std::vector<std::string_view>& own = own_model();
   return {
-      {"coordinates", form::array(form::text()), absent::other("`states`"), "their names", own},
+      {"coordinates", form::array(form::text()), absent::other("`states`"),
+       "names of the coordinates", own},
       {"momenta", form::array(form::text()), absent::other("`states`"),
-       "their names, in the order of the coordinates", own},
+       "names of the momenta, in the order of the coordinates", own},
       {"hamiltonian", form::text(), absent::other("`vector_field`"),
        "an expression, see [expressions](../expressions.md)", own},
       {"parameters", table_of("table of numbers, or of expressions of them"), absent::other("none"),
@@ -95,7 +96,7 @@ std::vector<SceneKey> own_keys() {
       {"states", form::array(form::text()), absent::other("`coordinates` and `momenta`"),
        "names of the variables of a vector field", own},
       {"vector_field", table_of("table of expressions"), absent::other("`hamiltonian`"),
-       "of each state, its derivative by the time", own}};
+       "for each state its derivative by the time", own}};
 }
 
 void read_own_system(const TableReader& root, SystemSettings& settings) {

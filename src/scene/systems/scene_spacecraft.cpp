@@ -20,7 +20,7 @@ struct CoefficientKeys {
   std::string_view own_area;  ///< in place of area_m2; empty if there is none
   double usual_factor;
   std::string_view symbol;
-  double least;  ///< of usual spacecraft
+  double least;  ///< least value of usual spacecraft
   double most;
 };
 
@@ -168,7 +168,8 @@ void read_light(const TableReader& system, EarthSettings& earth) {
   if (!earth.has_sun) {
     system.fail(
         "radiation",
-        "without the Sun, got true beside sun = false, must be false, or beside sun = true");
+        "not possible without the Sun, got true with sun = false, must be false, or true with "
+        "sun = true");
   }
   RadiationSettings light;
   if (system.has("shadow")) light.shadow = static_cast<ShadowModel>(system.choice("shadow"));
@@ -199,7 +200,7 @@ void read_parameters(const TableReader& jet, SystemSettings& settings) {
 const TableDescription& spacecraft_table() {
   static const TableDescription table = {
       {{"mass_kg", form::positive(), absent::other("`drag_m2_kg` and `radiation_m2_kg`"),
-        "of the spacecraft"},
+        "mass of the spacecraft"},
        {"area_m2", form::positive(), absent::other("the same"), "across its motion"},
        {"drag_coefficient", form::positive(), absent::value(usual_drag_coefficient),
         "C_D, beside mass and area"},
@@ -219,20 +220,21 @@ const TableDescription& spacecraft_table() {
 std::vector<SceneKey> surface_force_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const AtmosphereSettings air;
-  return {{"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
-           absent::other("no drag"),
-           "density of the air, which turns with the Earth: `harris-priester` bulges on the "
-           "afternoon side, 100 to 1000 km high",
-           owner},
-          {"density_factor", form::positive(), absent::value(air.density_factor),
-           "of all densities of the air", owner},
-          {"bulge_exponent", form::integer(2, 6), absent::value(air.bulge_exponent),
-           "of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner},
-          {"radiation", form::boolean(), absent::value(false),
-           "whether the Sun's light presses on a spacecraft", owner},
-          {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
-           absent::value(name_of(RadiationSettings().shadow)),
-           "which light the Earth keeps off: `conical` has umbra and penumbra", owner}};
+  return {
+      {"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
+       absent::other("no drag"),
+       "density of the air, which turns with the Earth: `harris-priester` bulges on the "
+       "afternoon side, 100 to 1000 km high",
+       owner},
+      {"density_factor", form::positive(), absent::value(air.density_factor),
+       "a factor of all densities of the air", owner},
+      {"bulge_exponent", form::integer(2, 6), absent::value(air.bulge_exponent),
+       "exponent of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner},
+      {"radiation", form::boolean(), absent::value(false),
+       "whether the Sun's light presses on a spacecraft", owner},
+      {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
+       absent::value(name_of(RadiationSettings().shadow)),
+       "which light the Earth keeps off: `conical` has umbra and penumbra", owner}};
 }
 
 void read_surface_forces(const TableReader& root, SystemSettings& settings) {

@@ -124,7 +124,8 @@ void TableReader::attempt_declared_keys(const std::vector<std::string_view>& own
         }
       });
     } else if (!has(key.name) || key.form.words.empty()) {
-      // A form that is described in words may allow less, or more, than its other members say.
+      // A form with words may allow less, or more, than its type, range and choices say; its key is
+      // not tried.
       attempt([&] { read_declared(key); });
     }
   }

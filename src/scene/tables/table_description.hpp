@@ -68,7 +68,7 @@ inline ValueForm words(std::string words, ValueForm rest = text()) {
 struct Absence {
   enum class Meaning {
     refused,  ///< the key is required
-    value,    ///< the same as the key with the value `text`, in TOML
+    value,    ///< as if the key had the value `text`, in TOML
     other     ///< described by `text`
   };
   Meaning meaning = Meaning::refused;
@@ -134,8 +134,6 @@ struct TableDescription {
 // The descriptions of the tables of a scene, each defined beside the function that reads the table.
 
 const TableDescription& assignment_table();
-const TableDescription& bounded_table();
-const TableDescription& event_table();
 const TableDescription& canonical_transformation_table();
 const TableDescription& case_table();
 const TableDescription& checks_table();
@@ -151,7 +149,6 @@ const TableDescription& jet_table();
 const TableDescription& nominal_table();
 const TableDescription& optimal_control_table();
 const TableDescription& output_table();
-const TableDescription& periodic_table();
 const TableDescription& reference_table();
 const TableDescription& relative_hamiltonian_table();
 const TableDescription& spacecraft_table();

@@ -199,7 +199,8 @@ class BoundedStudy {
       deputy.amplitude = at;
       if (std::abs(deputy.size_m / deputy.wanted_m - 1) < close) return;
       (deputy.size_m < deputy.wanted_m ? low : high) = at;
-      // About the root of a sum of squares, held between what is known.
+      // The size is about the root of a sum of squares, of a fixed part and of one that grows with
+      // the amplitude; the next amplitude stays between the known ones.
       const double square = std::pow(deputy.size_m, 2) - std::pow(fixed, 2);
       double next = at * std::sqrt((std::pow(deputy.wanted_m, 2) - std::pow(fixed, 2)) /
                                    std::max(square, 1e-6 * std::pow(deputy.size_m, 2)));

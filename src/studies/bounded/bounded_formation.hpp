@@ -40,37 +40,39 @@ struct BoundedDrift {
   /// are larger than the drift, the slope is that of these looks and no finer.
   double along_doubt = 0;
   double cross = 0;  ///< a sin i d node
-  double range = 0;  ///< of the along-track difference over the span, relative to the size
+  double range = 0;  ///< range of the along-track difference over the span, in parts of the size
 };
 
 /// A deputy of one size, phase and rule.
 struct BoundedDeputy {
   BoundedRule rule = BoundedRule::poincare_map;
-  double wanted_m = 0;   ///< its size
-  std::string failure;   ///< why there is none; all below is empty then
-  double amplitude = 0;  ///< of the difference of the eccentricity vectors
+  double wanted_m = 0;  ///< the size that was asked for
+  std::string
+      failure;  ///< if not empty, the reason why there is no such deputy; all below is empty then
+  double amplitude = 0;  ///< length of the difference of the eccentricity vectors
   double size_m = 0;     ///< the largest distance over the first revolution
-  // The least and the largest of the sizes over one revolution each, from every look of the window
-  // on, and that from its end on.
+  // The size over one revolution is found from each look of the window on: the least of these
+  // sizes, the largest, and the size of the revolution that begins at the end of the window.
   double least_size_m = 0;
   double largest_size_m = 0;
   double last_size_m = 0;
-  // Of the map and what is refined of it: the period of Kepler's ellipse over the chief's, less 1,
-  // and H less the chief's, canonical.
+  // For deputies of the map and refined ones: the period of the Kepler ellipse over the chief's,
+  // less 1, and H less the chief's, canonical.
   double period_difference = 0;
   double momentum_difference = 0;
   int refinements = 0;                              ///< iterations of Newton's method by flying
-  std::vector<double> state;                        ///< at the chief's start, canonical
-  std::array<std::array<double, 6>, 6> forms = {};  ///< of every DeputyForm
+  std::vector<double> state;                        ///< the state at the chief's start, canonical
+  std::array<std::array<double, 6>, 6> forms = {};  ///< the start in every DeputyForm
   std::vector<RelativeState> first;                 ///< RTN, over the first revolution
-  std::vector<RelativeState> last;                  ///< over the last one
-  std::vector<BoundedDrift> drifts;                 ///< over a tenth of the window, and over it
-  /// Least distance from the centre over the same revolutions, between the looks too.
+  std::vector<RelativeState> last;                  ///< RTN, over the last revolution
+  std::vector<BoundedDrift> drifts;  ///< over a tenth of the window, and over the whole window
+  /// Least distance from the centre over the revolutions that begin at the looks, also between the
+  /// places at which the deputy is looked at.
   double lowest_m = 0;
 
-  /// Of the size that was asked for, by which the sizes may differ from it.
+  /// The part of the size that was asked for by which the sizes may differ from it.
   static constexpr double held_share = 0.25;
-  /// Whether its sizes are the one that was asked for, over the whole window.
+  /// Whether the sizes over the whole window are near the size that was asked for.
   bool is_held() const {
     return failure.empty() && least_size_m >= (1 - held_share) * wanted_m &&
            largest_size_m <= (1 + held_share) * wanted_m;

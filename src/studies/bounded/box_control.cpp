@@ -185,7 +185,7 @@ class Keeper {
     note(looked(company_, time_));
   }
 
-  /// A return of a duration, flown but not noted.
+  /// A return of a given duration that has been flown and may still be discarded.
   struct Flown {
     BoxReturn told;
     Company end;

@@ -12,12 +12,13 @@ namespace hamjet {
 
 /// A return into the box: two impulses, m/s along the chief's R, T and N at their moments.
 struct BoxReturn {
-  double time = 0;      ///< of the first impulse, canonical, from the start
-  double duration = 0;  ///< to the second one
+  double time = 0;      ///< time of the first impulse from the start, canonical
+  double duration = 0;  ///< time from the first impulse to the second, canonical
   Eigen::Vector3d first_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d second_m_s = Eigen::Vector3d::Zero();
-  double miss_m = 0;    ///< of the flight from the reference's place
-  double farthest = 0;  ///< on the way, in parts of the box: 1 is a face
+  double miss_m = 0;  ///< distance from the reference's place at which the flight ends
+  double farthest =
+      0;  ///< farthest from the reference on the way, in parts of the box: 1 is a face
   /// States right before the first impulse and right after the second one, canonical.
   std::vector<double> deputy_before;
   std::vector<double> deputy_after;

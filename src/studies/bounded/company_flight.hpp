@@ -20,7 +20,7 @@ class CompanyFlight {
                 const std::vector<double>& times, double nodal_period, double mean_period);
 
   double semi_major_axis() const { return semi_major_axis_; }
-  double cosine() const { return cosine_; }  ///< of the chief's inclination
+  double cosine() const { return cosine_; }  ///< cosine of the chief's inclination
   double sine() const;
   double mean_motion() const;  ///< radians a canonical unit of time, from node to node
 

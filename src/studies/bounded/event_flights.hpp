@@ -40,7 +40,7 @@ class EventFlights {
   const EventCondition<double>& condition_;
   const EventMap<double>& map_;
   SharedSystem system_;
-  double mean_motion_;               ///< of a circle through the chief's start
+  double mean_motion_;               ///< mean motion of a circle through the chief's start
   std::vector<Vector6> directions_;  ///< a unit vector of position and one of velocity
 };
 

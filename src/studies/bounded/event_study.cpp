@@ -29,7 +29,7 @@ namespace {
 constexpr double most_event_tolerance = 1e-14;
 /// Places within a step of the trajectory at which a change of sign is looked for.
 constexpr int places_of_step = 8;
-/// A start nearer to the surface than this part of the condition's size is on it.
+/// A start counts as on the surface if it is nearer than this part of the condition's size.
 constexpr double on_surface = 1e-12;
 
 using State = std::vector<double>;

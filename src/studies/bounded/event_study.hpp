@@ -17,7 +17,8 @@ namespace hamjet {
 struct EventMisses {
   double amplitude_m = 0;
   std::optional<double> position_m;
-  std::optional<double> time_s;  ///< from the event itself
+  std::optional<double>
+      time_s;  ///< difference of the polynomials' time from that of the flown event
   // The same of the linear polynomials.
   std::optional<double> linear_position_m;
   std::optional<double> linear_time_s;
@@ -27,9 +28,9 @@ struct EventMisses {
 struct EventStudy {
   Scene scene;
   EventMap<double> map;
-  double position_rounding_m = 0;      ///< of a flown position: a miss below says nothing
-  int flown = 0;                       ///< deputies of each amplitude
-  std::vector<EventMisses> misses;     ///< by amplitude, as in the scene
+  double position_rounding_m = 0;   ///< rounding of a flown position: a smaller miss says nothing
+  int flown = 0;                    ///< deputies of each amplitude
+  std::vector<EventMisses> misses;  ///< by amplitude, as in the scene
   std::vector<SelfCheck> checks = {};  ///< of the chief's flight to the event
 
   double time_s() const { return map.time[0] * scene.units.time_s; }

@@ -13,9 +13,10 @@ namespace hamjet {
 
 /// A circle of the normal form about the frozen orbit, of the chief's energy and H.
 struct LibrationCircle {
-  bool is_chiefs = false;      ///< that on which the scene's chief is
-  double amplitude = 0;        ///< of the eccentricity vector: the radius over sqrt(L)
-  double rotation_number = 0;  ///< turns of the pericentre's pair a revolution
+  bool is_chiefs = false;  ///< whether the scene's chief is on this circle
+  double amplitude =
+      0;  ///< radius of the eccentricity vector's circle: that of the pair over sqrt(L)
+  double rotation_number = 0;  ///< turns of the eccentricity vector a revolution
   double mean_period = 0;      ///< nodal, canonical
   double mean_node = 0;        ///< radians a revolution
   double action = 0;           ///< canonical
@@ -51,15 +52,18 @@ struct FrozenOrbitStudy {
   double node = 0;          ///< radians a revolution
   double residual = 0;      ///< by how much a revolution moves (q, p), in extended precision
   double trace = 0;         ///< the sum of the two multipliers
-  double trace_less_2 = 0;  ///< the same less 2, without the loss of digits
-  double area_defect = 0;   ///< their product less 1
+  double trace_less_2 = 0;  ///< the trace less 2, without the loss of digits
+  double area_defect = 0;   ///< the product of the multipliers, less 1
   int iterations = 0;
-  double pericentre_depth = 0;  ///< of the pericentre below the body's radius; negative above it
+  double pericentre_depth =
+      0;  ///< depth of the pericentre below the body's radius; negative above it
   // The normal form.
-  std::string failure;  ///< why there is none; what follows is empty then
+  std::string failure;  ///< if not empty, the reason why there is no normal form; what follows is
+                        ///< empty then
   double smallest_divisor = 0;
   int flown_revolutions = 0;
-  std::vector<LibrationCircle> circles;  ///< by amplitude, the chief's last
+  std::vector<LibrationCircle>
+      circles;  ///< in the order of their amplitudes; the chief's circle is the last
   /// The largest amplitude at which an orbit is flown to within largest_miss of the normal form.
   double reach = 0;
   std::vector<FlownAmplitude> flown_amplitudes;  ///< ascending

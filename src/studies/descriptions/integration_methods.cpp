@@ -114,7 +114,7 @@ MethodDescription velocity_verlet() {
           "step_canonical or step_s",
       .settings = {{.key = "order",
                     .column = "method_order",
-                    .help = "of convergence",
+                    .help = "order of convergence",
                     .member = &Settings::order,
                     .least = 2,
                     .most = 8,

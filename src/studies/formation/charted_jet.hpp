@@ -34,7 +34,7 @@ struct DegreesWithoutDigits {
   /// chief's own units: on an ellipse of Kepler's problem degree 1 says all, and others are errors
   /// alone.
   std::vector<int> negligible;
-  double largest_share = 0;  ///< of these coefficients and errors in degree 1's
+  double largest_share = 0;  ///< largest ratio of these coefficients and errors to degree 1's
   std::vector<int> wrong;    ///< the others
 
   /// Whether the Poisson brackets of a degree consist of products with negligible degrees alone.

@@ -25,7 +25,7 @@ class TransferSearch {
  private:
   TransferPoints& points_;
   const RelativeTransfer& ends_;
-  JetPropagation propagation_;  ///< at the span's first time
+  JetPropagation propagation_;  ///< the propagation, at the first time of the span
   std::size_t count_ = 0;
   double seconds_ = 0;  ///< time of the propagations within spans
 };

@@ -74,7 +74,7 @@ class TransferPoints {
   /// The answer with the largest Hamilton-Jacobi residual so far.
   struct LargestResidual {
     double scaled = 0;
-    SharedSystem system;  ///< as it is at the time of the jet
+    SharedSystem system;  ///< the system at the time of the jet
     FlowJet<double> jet;
     GeneratingFunctionKind kind;
     std::vector<double> w;  ///< variables of the kind
@@ -112,7 +112,7 @@ class TransferPoints {
   ChosenCoordinates coordinates_;
   /// Propagation of the flows in other coordinates.
   std::optional<DeputyFlowPropagation> propagation_;
-  double propagated_ = 0;                     ///< its present time
+  double propagated_ = 0;                     ///< the time that the flow has reached
   std::unique_ptr<DeputyFlow> charted_flow_;  ///< flow at that time
   std::vector<SingularTime> singular_times_;
   std::optional<LargestResidual> largest_residual_;

@@ -35,7 +35,7 @@ struct PeriodicProblem {
   GaussSettings gauss;
   std::size_t arcs = 4;
   OrbitQuantity held;  ///< for a single orbit; in a family along a parameter for each member
-  double value = 0;    ///< at which it is held
+  double value = 0;    ///< the value at which that quantity is held
   /// Above which mismatch of arcs, in parts of the sizes of positions and momenta, an orbit is
   /// none.
   double tolerance = 1e-10;
@@ -71,9 +71,10 @@ struct Monodromy {
 struct PeriodicOrbit {
   OrbitNodes nodes;
   double energy = 0;
-  double mismatch = 0;  ///< of the arcs' ends, the largest in parts of the sizes
-  double closing = 0;   ///< of one flight from the start, apart from the search; in the same parts
-  int iterations = 0;   ///< of Newton's method
+  double mismatch = 0;  ///< largest mismatch of the arcs' ends, in parts of the sizes
+  double closing =
+      0;  ///< by how much one flight from the start fails to close, in parts of the sizes
+  int iterations = 0;  ///< iterations of Newton's method
   Monodromy monodromy;
 
   const Vector<double>& start() const { return nodes.states.front(); }
@@ -109,7 +110,7 @@ PeriodicOrbit find_periodic_orbit(const PeriodicProblem& problem, const OrbitNod
 struct FamilyPath {
   OrbitQuantity along;
   double to = 0;    ///< the last member's value of it
-  double step = 0;  ///< of it between members, where the family has no fold
+  double step = 0;  ///< step of that quantity between members, where the family has no fold
   std::size_t most_members = 200;
 };
 

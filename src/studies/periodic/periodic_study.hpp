@@ -14,7 +14,7 @@ namespace hamjet {
 /// A periodic orbit of a scene, or the family from it.
 struct PeriodicStudy {
   Scene scene;
-  PeriodicFamily family;  ///< of one member without `[periodic.family]`
+  PeriodicFamily family;  ///< the family; it has one member without `[periodic.family]`
   /// Of some members, the first two coordinates along a turn; with one degree of freedom, the
   /// coordinate and its momentum. In the units that the user is told.
   struct Path {

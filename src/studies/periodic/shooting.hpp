@@ -9,10 +9,13 @@ namespace hamjet {
 /// The linearised equations of shooting. Columns are the changes of the start, of the period and,
 /// if it is an unknown, of the parameter, each in parts of its size; rows are in the same parts.
 struct LinearShooting {
-  Matrix<double> rows;       ///< of "the last arc ends at the start" and of the phase
-  Vector<double> residuals;  ///< of these, after the other arcs' mismatches are taken out
-  std::vector<Matrix<double>> of_states;  ///< of each node, by the columns
-  std::vector<Vector<double>> offsets;    ///< what takes out the mismatches, of each node
+  Matrix<double>
+      rows;  ///< derivatives of the conditions "the last arc ends at the start" and of the phase
+  Vector<double>
+      residuals;  ///< residuals of these conditions, after the other arcs' mismatches are taken out
+  std::vector<Matrix<double>>
+      of_states;  ///< derivatives of each node's state by the unknowns of the columns
+  std::vector<Vector<double>> offsets;  ///< what takes out the mismatches, of each node
   double mismatch = 0;
 };
 

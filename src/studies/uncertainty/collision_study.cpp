@@ -294,8 +294,8 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
     approaches = closest_approaches(lower);
   } else {
     result.warnings.emplace_back(
-        "closest approaches are not told: the forces depend on the time, and the times of "
-        "deviating spacecraft would have to be their argument");
+        "closest approaches are not computed: the forces depend on the time, and the polynomials "
+        "know them at the nominal's times alone");
   }
   for (const ClosestApproach& approach : approaches) {
     if (progress) progress("closest approaches", 0);

@@ -30,7 +30,7 @@ InitialState initial_deputy(const Scene& scene, const RelativeState& start);
 /// integrates the scene's.
 EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius);
 
-/// One side of an encounter.
+/// The spacecraft of this start as one of the two of an encounter.
 UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start);
 
 }  // namespace hamjet

@@ -146,7 +146,7 @@ JetPropagation own_jets(ComputedProblem problem, const IntegratorSettings& setti
 /// Whether a spacecraft starts so far from the chief that coordinates about the chief say nothing
 /// of it.
 bool is_distant(const InitialState& start, const Scene& scene) {
-  constexpr double part = 0.05;  // of the chief's distance from the centre
+  constexpr double part = 0.05;  // a part of the chief's distance from the centre
   return start.mean.head(3).norm() >= part * Eigen::Vector3d(scene.nominal.data()).norm();
 }
 

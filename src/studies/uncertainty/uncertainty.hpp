@@ -37,15 +37,17 @@ FlownMoments flown_moments(const Matrix<double>& states);
 /// distributions of states are of deviations from the chief's nominal, metres and metres a second
 /// along the frame's axes at the time; by the orders 1..N.
 struct UncertainState {
-  std::string name;                  ///< "chief", "deputy" or "relative", the deputy less the chief
-  std::vector<Cumulants> cartesian;  ///< by the polynomials of positions and velocities, exact
+  std::string name;  ///< "chief", "deputy" or "relative", the deputy less the chief
+  std::vector<Cumulants>
+      cartesian;  ///< moments by the polynomials of positions and velocities, exact for these
   /// By the polynomials in the scene's other coordinates, by quadrature; empty without such, or
   /// where some node of the quadrature has no place in them.
   std::vector<Cumulants> through;
   /// How far the quadrature is from one of fewer nodes, over the orders: relative, of standard
   /// deviations, and absolute, of skewness and kurtosis.
   double through_doubt = 0;
-  /// Of the scene's other coordinates themselves, exact for their polynomials; empty without such.
+  /// Moments of the scene's other coordinates themselves, exact for their polynomials; empty if the
+  /// scene has no other coordinates.
   std::vector<Cumulants> charted;
   std::optional<FlownMoments> flown;
   Matrix<double> flown_states;  ///< columns of six numbers; 6 x 0 without flights
@@ -53,7 +55,7 @@ struct UncertainState {
 
 struct UncertaintyAt {
   double time = 0;                           ///< canonical
-  std::array<std::string, 6> charted_names;  ///< of the coordinates
+  std::array<std::string, 6> charted_names;  ///< names of these coordinates
   std::vector<UncertainState> states;
 };
 
@@ -62,9 +64,9 @@ struct UncertaintyAt {
 struct MomentsInCoordinates {
   JetCoordinates coordinates = JetCoordinates::cartesian;
   std::array<std::string, 6> components;         ///< names of the coordinates
-  std::vector<std::string> states;               ///< as of UncertaintyAt
-  std::vector<std::vector<Cumulants>> by_order;  ///< of each state, by the orders 1..N
-  std::string refusal;                           ///< why there are none
+  std::vector<std::string> states;               ///< names of the states, as in UncertaintyAt
+  std::vector<std::vector<Cumulants>> by_order;  ///< moments of each state, by the orders 1..N
+  std::string refusal;  ///< if not empty, the reason why there are no moments
 };
 
 struct UncertaintyResult {
@@ -83,7 +85,7 @@ struct UncertaintyResult {
 
 /// How far moments are from others, in the worst component.
 struct MomentsDifference {
-  double deviation = 0;  ///< of standard deviations, relative to the first ones
+  double deviation = 0;  ///< difference of the standard deviations, relative to the first ones
   double skewness = 0;
   double kurtosis = 0;
 };

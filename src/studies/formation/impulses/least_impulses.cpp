@@ -185,7 +185,7 @@ std::optional<double> limit_needed(const EvenProblem& even, DirectedImpulses& pr
     if (!program.add_directions()) break;
   }
   throw UnprovedLeast(
-      "impulses: whether any below the limit suffice is within the rounding of the solver");
+      "impulses: the solver's rounding hides whether impulses below the limit suffice");
 }
 
 LimitedImpulses found_impulses(const std::vector<ImpulseEffect>& effects, const Vector6& change,

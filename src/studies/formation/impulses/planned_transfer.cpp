@@ -58,7 +58,7 @@ TimedImpulses blend(const TimedImpulses& from, const TimedImpulses& to, double s
   return all;
 }
 
-/// The impulses with number `i` and the one before it replaced by one at their mean time.
+/// The impulses in which number `k` and the one before it are replaced by one at their mean time.
 TimedImpulses with_one_for_two(TimedImpulses impulses, std::size_t k) {
   auto& [times, changes] = impulses;
   const double first = changes[k - 1].norm();

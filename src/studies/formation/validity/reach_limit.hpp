@@ -9,8 +9,8 @@ namespace hamjet {
 /// The coordinates in which a limit is described: those of a deputy's deviation at the start, and
 /// those of the miss of the polynomials at the end.
 struct LimitCoordinates {
-  std::vector<std::string> start;  ///< of the polynomials' variables
-  std::vector<std::string> end;    ///< of the polynomials' values
+  std::vector<std::string> start;  ///< names of the polynomials' variables
+  std::vector<std::string> end;    ///< names of the polynomials' values
   /// The rows are the frame's axes at the end. For polynomials of positions and momenta, the
   /// components of the position along these axes replace the values.
   Eigen::Matrix3d end_axes = Eigen::Matrix3d::Identity();

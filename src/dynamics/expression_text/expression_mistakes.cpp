@@ -1,11 +1,10 @@
-#include "expression_part.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "../../text/printable_text.hpp"
 #include "../../text/scene_message.hpp"
+#include "expression_part.hpp"
 #include "hamjet/dynamics/expression_text.hpp"
 
 namespace hamjet {
