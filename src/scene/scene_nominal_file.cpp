@@ -299,6 +299,11 @@ std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table
   return std::nullopt;
 }
 
+std::optional<OpmSpacecraft> spacecraft_of_orbit_file(const TableReader& table) {
+  if (!table.has("opm_file")) return std::nullopt;
+  return read_message(table, "opm_file", AcceptedFrames::terrestrial_too).parameters->spacecraft;
+}
+
 std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
   const auto settings = settings_of_orbit_file(nominal);
   return settings ? parse_epoch(settings->epoch) : std::nullopt;

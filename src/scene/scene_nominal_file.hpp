@@ -41,6 +41,10 @@ NominalFromFile read_nominal_file(const TableReader& nominal, const SceneCentre&
 /// file. Throws as read_nominal_file, except for the centre and the frame.
 std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table);
 
+/// What the OPM of a table says of its spacecraft; no value for a table without one. Throws as
+/// settings_of_orbit_file.
+std::optional<OpmSpacecraft> spacecraft_of_orbit_file(const TableReader& table);
+
 /// The frames in which a scene's messages may be: the model `earth` knows how the Earth's axes
 /// turn.
 AcceptedFrames frames_of(const SystemSettings& system);

@@ -10,6 +10,7 @@
 #include "scene_relative_motion.hpp"
 #include "systems/scene_earth.hpp"
 #include "systems/scene_own_system.hpp"
+#include "systems/scene_spacecraft.hpp"
 #include "tables_of_studies.hpp"
 
 namespace hamjet::io {
@@ -72,6 +73,9 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     nominal = read_start(root, scene, units);
     if (root.has("units")) scene.told_units = canonical_units(nominal.told);
     scene.nominal_file = nominal.file;
+    if (scene.nominal_file && uses_message_of_spacecraft(root, scene.system)) {
+      std::erase(scene.nominal_file->unused, "spacecraft parameters");
+    }
     scene.warnings = likely_slips(root, scene);
     set_own_system(root.table("system"), scene);
   });

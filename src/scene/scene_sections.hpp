@@ -262,6 +262,9 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root);
 /// Each is one line for the user, with place, key and what would be right.
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
+/// Warnings about spacecraft that the air brings down within the scene, and about a low perigee.
+std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene& scene);
+
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.
 std::vector<double> read_relative_hamiltonian(const TableReader& table, double span,
                                               const Nominal& nominal);

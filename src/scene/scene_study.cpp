@@ -237,7 +237,11 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
         scene.title = title;
       },
       study);
-  if (Scene* const scene = std::get_if<Scene>(&study)) light_nominal(*scene);
+  if (Scene* const scene = std::get_if<Scene>(&study)) {
+    const std::vector<std::string> decays = warnings_of_decay(root, *scene);
+    scene->warnings.insert(scene->warnings.end(), decays.begin(), decays.end());
+    light_nominal(*scene);
+  }
   return study;
 }
 

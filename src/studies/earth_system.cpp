@@ -140,6 +140,11 @@ const DensityProfile& exponential_profile() {
   return profile;
 }
 
+/// The density of air without a bulge.
+const DensityProfile& steady_profile(const AtmosphereSettings& air) {
+  return air.model == AtmosphereModel::table ? *air.profile : exponential_profile();
+}
+
 /// Whether there is air that bulges towards the Sun.
 bool bulges(const EarthSettings& earth) {
   return earth.atmosphere && earth.atmosphere->model == AtmosphereModel::harris_priester;
@@ -200,6 +205,11 @@ void add_parameter(SystemSettings& settings, std::string_view name) {
   }
   settings.earth.value().parameters.emplace_back(name);
   settings.own_names.emplace_back(name);
+}
+
+const DensityProfile& greatest_density(const AtmosphereSettings& air) {
+  return air.model == AtmosphereModel::harris_priester ? harris_priester_profiles().greatest
+                                                       : steady_profile(air);
 }
 
 std::vector<double> parameter_values(const SystemSettings& settings) {
@@ -269,7 +279,7 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
     atmosphere.lag = bulge_lag;
     atmosphere.exponent = air.bulge_exponent;
   } else {
-    atmosphere.least = density(exponential_profile());
+    atmosphere.least = density(steady_profile(air));
   }
   atmosphere.rate = earth_rate * convert<double>(time_s);
   atmosphere.factor = coefficient(earth, density_factor_name, air.density_factor);

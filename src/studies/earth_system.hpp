@@ -46,6 +46,9 @@ std::vector<double> parameter_values(const SystemSettings& settings);
 std::shared_ptr<const BodyPosition> position_of_sun(const SystemSettings& settings,
                                                     double canonical_radius);
 
+/// The density of the air where it is greatest, at each height in km: that of a bulge's middle.
+const DensityProfile& greatest_density(const AtmosphereSettings& air);
+
 /// The system of the model `earth` in canonical units, in which the field's radius is
 /// `canonical_radius` and mu is 1; its clock is 0 at the scene's epoch. Throws as EarthRotation and
 /// BodyPosition.

@@ -55,6 +55,8 @@ class KeyText {
   }
   /// It follows from the other settings and the nominal.
   void write(const std::shared_ptr<const Sunlight>&) {}
+  /// Heights and densities beside it stand for it.
+  void write(const std::shared_ptr<const DensityProfile>&) {}
   /// The checksum beside it stands for it.
   void write(const std::shared_ptr<const EarthOrientation>&) {}
   template <class Value>

@@ -145,7 +145,7 @@ class LitFlight {
         if (std::abs(time) < std::abs(needed_)) {
           throw Error(ErrorKind::numerical,
                       fmt::format("the light along an orbit cannot be followed beyond t = {:.6g}: "
-                                  "it runs into a collision",
+                                  "it runs into a collision, or decays",
                                   time));
         }
         has_ended_ = true;

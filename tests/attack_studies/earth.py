@@ -123,11 +123,12 @@ class Orientation:
 class EarthField(Field):
     """Flights along GCRF; times are seconds after the epoch."""
 
-    def __init__(self, degree, order, sun, moon, epoch, orientation=None, air=None):
+    def __init__(self, degree, order, sun, moon, epoch, orientation=None, air=None,
+                 radiation_m2_kg=REAL(0)):
         """The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
-        factor of all densities."""
+        factor of all densities; the light is that of C_R A / m."""
         self._settings = degree, order, sun, moon, epoch, orientation
-        self.air = air
+        self.air, self.radiation_m2_kg = air, radiation_m2_kg
         mu, radius, C, S = shipped_field()
         super().__init__(mu, radius)
         below = [(n, m) for n in range(degree + 1) for m in range(n + 1)]
@@ -135,7 +136,7 @@ class EarthField(Field):
                      for x in (C, S)]
         constants = np.array([mu, radius, MU_SUN if sun else 0, MU_MOON if moon else 0,
                               epoch.seconds, -epoch.tai_minus_utc() - TT_MINUS_TAI,
-                              air[2] if air else 0], dtype=REAL)
+                              air[2] if air else 0, radiation_m2_kg], dtype=REAL)
         day = np.array([epoch.julian_day])
         rows = np.zeros((0, 6), dtype=REAL) if orientation is None else orientation.rows
         profiles = density_profiles(air[0]) if air else np.zeros((0, 0, 9), dtype=REAL)
@@ -144,9 +145,9 @@ class EarthField(Field):
                                          address(rows), air[1] if air else 0, *profiles.shape[:2],
                                          address(profiles))
 
-    def with_drag(self, drag_m2_kg):
-        """The same Earth for a spacecraft that the air brakes otherwise."""
-        return EarthField(*self._settings, (*self.air[:2], drag_m2_kg))
+    def of_spacecraft(self, drag_m2_kg, radiation_m2_kg):
+        """The same Earth for another spacecraft."""
+        return EarthField(*self._settings, (*self.air[:2], drag_m2_kg), radiation_m2_kg)
 
     def __del__(self):
         LIBRARY.delete_earth(self._earth)

@@ -369,6 +369,13 @@ Vector Earth::acceleration(const Vector& x, Real time) {
   };
   add(settings_.mu_sun, 4);
   add(settings_.mu_moon, 7);
+  if (settings_.radiation_m2_kg != 0) {
+    // The irradiance of 1361 W/m^2 at one astronomical unit over the speed of light.
+    const Values& now = slow(time);
+    const Vector way = {now[4] - x[0], now[5] - x[1], now[6] - x[2]};
+    const Real pressure = 1361.0L / 299792458.0L * Real(ERFA_DAU) * Real(ERFA_DAU) / cube(way);
+    for (int i = 0; i < 3; ++i) sum[i] -= settings_.radiation_m2_kg * pressure * way[i];
+  }
   for (int i = 0; i < 3; ++i) sum[i] -= settings_.mu * x[i] / r3;
   return sum;
 }

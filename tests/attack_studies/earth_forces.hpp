@@ -51,7 +51,8 @@ struct EarthSettings {
   Real tt_seconds;                   ///< of the epoch after it
   Real ut1_minus_tt_s;               ///< at all times, without rows
   std::vector<OrientationRow> rows;
-  Air air;  ///< without profiles there is none
+  Air air;               ///< without profiles there is none
+  Real radiation_m2_kg;  ///< C_R A / m, of a spacecraft that is lit at all times
 };
 
 class Earth {

@@ -13,7 +13,7 @@ using attack::Matrix;
 extern "C" {
 
 /// `constants` are mu, radius, mu of Sun and Moon, seconds of TT after the midnight at the Julian
-/// date `tt_day`, UT1 - TT, and C_D A / m; of `rows` there are six numbers each, as in
+/// date `tt_day`, UT1 - TT, C_D A / m, and C_R A / m; of `rows` there are six numbers each, as in
 /// OrientationRow. Of `pieces` of each of `profiles` there are nine, as in DensityPiece.
 void* make_earth(int degree, const long double* C, const long double* S,
                  const long double* constants, const double* tt_day, int rows,
@@ -36,6 +36,7 @@ void* make_earth(int degree, const long double* C, const long double* S,
         {of_rows[0], of_rows[1], of_rows[2], of_rows[3], of_rows[4], of_rows[5]});
   }
   settings.air.drag_m2_kg = constants[6];
+  settings.radiation_m2_kg = constants[7];
   settings.air.exponent = exponent;
   for (int p = 0; p < profiles; ++p) {
     auto& profile = settings.air.profiles.emplace_back(pieces);

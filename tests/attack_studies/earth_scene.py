@@ -57,8 +57,9 @@ class EarthScene(Scene):
             system["orientation_file"] = "finals.txt"
             orientation = Orientation(draw, self.epoch, TABLE_DAYS)
             self.files["finals.txt"] = orientation.text
-        self.field = EarthField(degree, order, sun, moon, self.epoch, orientation,
-                                self._draw_air(system) if draw.chance(0.45) else None)
+        air = self._draw_air(system) if draw.chance(0.45) else None
+        self.field = EarthField(degree, order, sun, moon, self.epoch, orientation, air,
+                                self._draw_light(system, sun))
 
     def _draw_air(self, system):
         draw = self.draw
@@ -83,6 +84,30 @@ class EarthScene(Scene):
             coefficient = table["drag_coefficient"] = draw.uniform(2, 3)
         table["area_m2"] = rounded(drag * table["mass_kg"] / coefficient)
         return table, REAL(coefficient) * REAL(table["area_m2"]) / REAL(table["mass_kg"])
+
+    def unlike_deputy(self, table):
+        """Gives a deputy another coefficient, often one near the chief's, in which polynomials are
+        expanded; its field."""
+        draw = self.draw
+        table["spacecraft"], drag = self.draw_spacecraft()
+        if draw.chance(0.6):
+            drag = REAL(float(self.field.air[2] / self.density_factor) * draw.uniform(0.7, 1.3))
+            table["spacecraft"] = {"drag_m2_kg": float(drag)}
+        light = self.field.radiation_m2_kg
+        if light and ("mass_kg" in table["spacecraft"] or draw.chance(0.3)):
+            light = REAL(float(light) * draw.uniform(0.7, 1.3))
+            table["spacecraft"]["radiation_m2_kg"] = float(light)
+        return self.field.of_spacecraft(drag * REAL(self.density_factor), light)
+
+    def _draw_light(self, system, sun):
+        """Light without a shadow, in whose edges the extrapolation here would lose its order."""
+        draw = self.draw
+        if not sun or not draw.chance(0.35):
+            return REAL(0)
+        system["radiation"], system["shadow"] = True, "none"
+        light = draw.logarithmic(5e-4, 0.3)
+        self.tables.setdefault("spacecraft", {})["radiation_m2_kg"] = light
+        return REAL(light)
 
     def _draw_epoch(self, nominal):
         draw = self.draw

@@ -15,12 +15,7 @@ def draw(source):
     scene.deputy_state = scene.deputy(table, scene.chief, distance, scene.frame_of_motion)
     scene.deputy_field = scene.field
     if scene.is_earth and scene.field.air and source.chance(0.5):
-        # Often of a coefficient near the chief's, in which polynomials are expanded.
-        table["spacecraft"], drag = scene.draw_spacecraft()
-        if source.chance(0.6):
-            drag = REAL(float(scene.field.air[2] / scene.density_factor) * source.uniform(0.7, 1.3))
-            table["spacecraft"] = {"drag_m2_kg": float(drag)}
-        scene.deputy_field = scene.field.with_drag(drag * REAL(scene.density_factor))
+        scene.deputy_field = scene.unlike_deputy(table)
     return scene
 
 

@@ -62,6 +62,11 @@ def draw(source):
         table["keep_out_m"] = [inner * source.logarithmic(0.01, 0.95) for _ in range(3)]
     if extra == "budget":
         table["budget_m_s"] = rate * source.logarithmic(0.3, 10)
+    # Of least impulses the linear programmes here are about the chief's own flow.
+    is_told = extra not in ("optimal", "limited", "revolutions")
+    if scene.is_earth and scene.field.air and is_told and source.chance(0.6):
+        scene.tables["deputy"] = {"position_m": [0.0, scene.distance, 0.0]}
+        scene.deputy_field = scene.unlike_deputy(scene.tables["deputy"])
     return scene
 
 

@@ -10,6 +10,7 @@ class Flights:
 
     def __init__(self, scene):
         self.scene, self.field, self.frame = scene, scene.field, scene.transfer_frame
+        self.deputy_field = deputy_field_of(scene)
 
     def chief(self, time):
         return self.field.to(self.scene.chief, time) if time else self.scene.chief
@@ -30,18 +31,24 @@ class Flights:
                                @ self.axes(time)])
 
     def on(self, state, time, then):
-        return self.field.to(state, REAL(then) - REAL(time), begin=time) if (
+        return self.deputy_field.to(state, REAL(then) - REAL(time), begin=time) if (
             then != time) else state
+
+
+def deputy_field_of(scene):
+    """What acts on a deputy, which may be unlike its chief."""
+    return getattr(scene, "deputy_field", scene.field)
 
 
 def least_ratio(scene, deputy, time, axes):
     """The least of |(R/a, T/b, N/c)| along the way: where the straight line between two looks comes
     near to the centre there are more of them, seven times."""
-    field, chief = scene.field, scene.chief
+    field, other, chief = scene.field, deputy_field_of(scene), scene.chief
     axes = np.array(axes, dtype=REAL)
 
     def scaled(times, chief, deputy, begin=REAL(0)):
-        chiefs, deputies = (field.fly(one, times, begin=begin) for one in (chief, deputy))
+        chiefs, deputies = (of.fly(one, times, begin=begin)
+                            for of, one in ((field, chief), (other, deputy)))
         return np.array([orbit.axes_of(c)[0] @ (d - c)[:3] / axes
                          for c, d in zip(chiefs, deputies)]), chiefs, deputies
 

@@ -121,6 +121,7 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_orbits = {"energy_conservation.duration_orbits", "null"};
   static const std::string message = "orbit-messages";
   static const std::string mars = "\"../../tests/fuzz/corpus/orbit_message/ephemeris.oem\"";
+  static const std::string densities = "[5e-7, 3e-10, 2e-11, 4e-13]";
   static const Override no_deputy = {"deputy", "null"};
   static const Override ellipse = {
       "deputy", "{a_km=7086, e=0.001, i_deg=98.2, raan_deg=0, argp_deg=90, ta_deg=0}"};
@@ -165,6 +166,16 @@ inline const std::map<std::string, Place>& special_places() {
        {"earth/pair", {{"generating_function", "{kinds=[\"F1\"]}"}}, "true"}},
       {"spacecraft.drag_m2_kg", {"", {{"spacecraft", "{drag_m2_kg=0.01}"}}}},
       {"system.shadow", {"", {{"system.radiation", "true"}}}},
+      {"system.density_file",
+       {"", {{"system.atmosphere", "\"table\""}}, "\"../../../tests/scene/density_table.csv\""}},
+      {"system.heights_km",
+       {"",
+        {{"system.atmosphere", "\"table\""}, {"system.densities_kg_m3", densities}},
+        "[100, 200, 300, 600]"}},
+      {"system.densities_kg_m3",
+       {"",
+        {{"system.atmosphere", "\"table\""}, {"system.heights_km", "[100, 200, 300, 500]"}},
+        densities}},
       {"spacecraft.sunlit_area_m2", {"", {{"system.radiation", "true"}}}},
       {"spacecraft.reflection_coefficient", {"", {{"system.radiation", "true"}}}},
       {"spacecraft.radiation_m2_kg", {"", {{"system.radiation", "true"}}}},

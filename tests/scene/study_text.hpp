@@ -55,6 +55,8 @@ class StudyText {
         add_all(field->C(n, m), field->S(n, m));
     }
   }
+  /// Its heights and densities stand for it.
+  void add(const std::shared_ptr<const DensityProfile>&) {}
   /// The checksum of its file stands for it.
   void add(const std::shared_ptr<const EarthOrientation>&) {}
   void add(const std::shared_ptr<const Sunlight>&) {}

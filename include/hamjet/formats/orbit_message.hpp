@@ -89,6 +89,15 @@ struct OrbitEphemerisMessage {
   std::vector<EphemerisSegment> segments;
 };
 
+/// What an OPM says of the spacecraft itself; numbers that are faulty are absent.
+struct OpmSpacecraft {
+  std::optional<double> mass_kg = {};                ///< MASS
+  std::optional<double> radiation_area_m2 = {};      ///< SOLAR_RAD_AREA
+  std::optional<double> radiation_coefficient = {};  ///< SOLAR_RAD_COEFF
+  std::optional<double> drag_area_m2 = {};           ///< DRAG_AREA
+  std::optional<double> drag_coefficient = {};       ///< DRAG_COEFF
+};
+
 /// An Orbit Parameter Message (OPM): the state of one object at one moment.
 struct OrbitParameterMessage {
   std::string version;
@@ -102,6 +111,7 @@ struct OrbitParameterMessage {
   std::size_t gm_line = 0;          ///< line of GM
   std::optional<OrbitElements> elements = {};
   std::optional<OrbitCovariance> covariance = {};
+  OpmSpacecraft spacecraft = {};
   /// Other contents of the message, which are not used: "Keplerian elements", "spacecraft
   /// parameters", "covariance", "user-defined parameters".
   std::vector<std::string> unused;
@@ -134,7 +144,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
 /// written again is the same text. Texts must be printable ASCII.
 std::string oem_text(const OrbitEphemerisMessage& message);
 
-/// Writes an OPM of the state alone as text; otherwise as oem_text.
+/// Writes an OPM of the state and the spacecraft as text; otherwise as oem_text.
 std::string opm_text(const OrbitParameterMessage& message);
 
 /// Whether the axes of a reference frame are known not to rotate.

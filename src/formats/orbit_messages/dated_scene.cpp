@@ -29,11 +29,12 @@ std::string earth_text(const SystemSettings& system) {
       model_name(system.model), system.mu_km3_s2, system.radius_km,
       system.gravity_file->model_name.empty() ? "the field" : system.gravity_file->model_name,
       earth.degree, earth.order, earth.has_sun ? ", Sun" : "", earth.has_moon ? ", Moon" : "",
-      earth.atmosphere ? fmt::format("drag, density {}", name_of(earth.atmosphere->model))
+      earth.atmosphere ? fmt::format("drag of C_D A/m = {} m**2/kg, density {}", earth.drag_m2_kg,
+                                     name_of(earth.atmosphere->model))
                        : "no drag",
-      earth.radiation
-          ? fmt::format("radiation pressure, shadow {}", name_of(earth.radiation->shadow))
-          : "no radiation pressure");
+      earth.radiation ? fmt::format("radiation pressure of C_R A/m = {} m**2/kg, shadow {}",
+                                    earth.radiation_m2_kg, name_of(earth.radiation->shadow))
+                      : "no radiation pressure");
 }
 
 std::string model_text(const SystemSettings& system) {

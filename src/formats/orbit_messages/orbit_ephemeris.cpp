@@ -122,6 +122,11 @@ OrbitParameterMessage opm_at(const PropagationResult& result, const RunResult& r
   std::vector<OrbitState> one = {orbit_state(result.scene, time, state)};
   turn_to_axes(result.scene, one);
   message.state = one.front();
+  if (const auto& earth = result.scene.system.earth) {
+    const SpacecraftParts& parts = earth->parts;
+    message.spacecraft = {parts.mass_kg, parts.radiation_area_m2, parts.radiation_coefficient,
+                          parts.drag_area_m2, parts.drag_coefficient};
+  }
   return message;
 }
 

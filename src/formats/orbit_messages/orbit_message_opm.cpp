@@ -115,10 +115,10 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
         std::any_of(part.quantities.begin(), part.quantities.end(),
                     [&](const Quantity& quantity) { return block.has(quantity.keyword); });
     if (is_there) message.unused.emplace_back(part.name);
-    if (part.name != "spacecraft parameters") continue;
-    for (const Quantity& quantity : part.quantities) {
-      block.unused_number(quantity.keyword, quantity.unit, message.doubts);
-    }
+  }
+  for (const auto& [quantity, member] : spacecraft_quantities()) {
+    message.spacecraft.*member =
+        block.unused_number(quantity.keyword, quantity.unit, message.doubts);
   }
   message.elements = elements_of(block, message.doubts);
   message.covariance = covariance_of(block, message);

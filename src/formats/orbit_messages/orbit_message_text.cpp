@@ -4,6 +4,7 @@
 
 #include "comment_lines.hpp"
 #include "hamjet/formats/orbit_message.hpp"
+#include "orbit_message_units.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -93,6 +94,12 @@ std::string opm_text(const OrbitParameterMessage& message) {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     fmt::format_to(out, "{}_DOT = {:.15e} [km/s]\n", axes[i], state.velocity_km_s[i]);
+  }
+  for (const auto& [quantity, member] : spacecraft_quantities()) {
+    const std::optional<double>& number = message.spacecraft.*member;
+    if (!number) continue;
+    const std::string unit = quantity.unit.empty() ? "" : fmt::format(" [{}]", quantity.unit);
+    fmt::format_to(out, "{} = {:.15e}{}\n", quantity.keyword, *number, unit);
   }
   return fmt::to_string(buffer);
 }

@@ -53,6 +53,21 @@ const std::vector<UnusedPart>& unused_parts() {
   return parts;
 }
 
+const std::vector<SpacecraftQuantity>& spacecraft_quantities() {
+  static const std::vector<SpacecraftQuantity> quantities = [] {
+    const std::vector<Quantity>& named =
+        std::find_if(unused_parts().begin(), unused_parts().end(), [](const UnusedPart& part) {
+          return part.name == "spacecraft parameters";
+        })->quantities;
+    return std::vector<SpacecraftQuantity>{{named[0], &OpmSpacecraft::mass_kg},
+                                           {named[1], &OpmSpacecraft::radiation_area_m2},
+                                           {named[2], &OpmSpacecraft::radiation_coefficient},
+                                           {named[3], &OpmSpacecraft::drag_area_m2},
+                                           {named[4], &OpmSpacecraft::drag_coefficient}};
+  }();
+  return quantities;
+}
+
 const std::vector<Quantity>& covariance_quantities() {
   return std::find_if(unused_parts().begin(), unused_parts().end(),
                       [](const UnusedPart& part) { return part.name == "covariance"; })

@@ -69,6 +69,20 @@ void add_state(Node parent, const OrbitState& state, const std::vector<std::stri
   }
 }
 
+/// In the order of the schema of CCSDS 505.0-B-3, that of the standard.
+void add_spacecraft(Node parent, const OpmSpacecraft& spacecraft) {
+  Node block;
+  for (const auto& [quantity, member] : spacecraft_quantities()) {
+    if (!(spacecraft.*member)) continue;
+    if (!block) block = parent.append_child("spacecraftParameters");
+    Node leaf = add(block, std::string(quantity.keyword).c_str(),
+                    fmt::format("{:.15e}", *(spacecraft.*member)));
+    if (!quantity.unit.empty()) {
+      leaf.append_attribute("units") = std::string(quantity.unit).c_str();
+    }
+  }
+}
+
 std::string printed(const pugi::xml_document& document) {
   std::ostringstream text;
   document.save(text, "  ", pugi::format_indent, pugi::encoding_utf8);
@@ -101,7 +115,9 @@ std::string opm_xml(const OrbitParameterMessage& message) {
                      .append_child("body")
                      .append_child("segment");
   add_metadata(segment.append_child("metadata"), message.metadata);
-  add_state(segment.append_child("data"), message.state, message.state_comments);
+  Node data = segment.append_child("data");
+  add_state(data, message.state, message.state_comments);
+  add_spacecraft(data, message.spacecraft);
   return printed(document);
 }
 

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <initializer_list>
 #include <string>
 
 #include "../../studies/earth_system.hpp"
 #include "../../text/scene_message.hpp"
+#include "../scene_nominal_file.hpp"
 #include "../scene_sections.hpp"
+#include "scene_atmosphere.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -22,12 +23,21 @@ struct CoefficientKeys {
   std::string_view symbol;
   double least;  ///< least value of usual spacecraft
   double most;
+  std::optional<double> SpacecraftParts::*part_area;
+  std::optional<double> SpacecraftParts::*part_factor;
 };
 
-/// Real spacecraft have C_D A / m from 0.0003 m^2/kg (a sphere of lead, LARES) to some 20 (a
-/// balloon, Echo).
-constexpr CoefficientKeys drag_keys = {
-    "drag_m2_kg", "drag_coefficient", "", usual_drag_coefficient, "C_D A / m", 2e-4, 50};
+/// Spacecraft have C_D A / m from 0.0003 m^2/kg (a sphere of lead, LARES) to some 7 (with a sail
+/// that brakes, NanoSail-D); balloons (Echo) had 20. An m / (C_D A) in kg/m^2 is 10 and more.
+constexpr CoefficientKeys drag_keys = {"drag_m2_kg",
+                                       "drag_coefficient",
+                                       "",
+                                       usual_drag_coefficient,
+                                       "C_D A / m",
+                                       2e-4,
+                                       9,
+                                       &SpacecraftParts::drag_area_m2,
+                                       &SpacecraftParts::drag_coefficient};
 /// From spheres of lead to solar sails; balloons have more.
 constexpr CoefficientKeys radiation_keys = {"radiation_m2_kg",
                                             "reflection_coefficient",
@@ -35,7 +45,9 @@ constexpr CoefficientKeys radiation_keys = {"radiation_m2_kg",
                                             usual_reflection_coefficient,
                                             "C_R A / m",
                                             1e-4,
-                                            1};
+                                            1,
+                                            &SpacecraftParts::radiation_area_m2,
+                                            &SpacecraftParts::radiation_coefficient};
 
 void warn_of_unit(const TableReader& table, std::string_view key, const CoefficientKeys& keys,
                   double value) {
@@ -72,8 +84,10 @@ void refuse_keys_without(const TableReader& table, const CoefficientKeys& keys,
                                table.found(part), other, other));
 }
 
-/// The coefficient that a table tells, of which mass and area may belong to another one.
-double read_coefficient(const TableReader& table, const CoefficientKeys& keys) {
+/// The coefficient that a table tells, of which mass and area may belong to another one. `parts`
+/// are what it is made of, if it is.
+double read_coefficient(const TableReader& table, const CoefficientKeys& keys,
+                        SpacecraftParts& parts) {
   if (table.has(keys.itself)) {
     for (const std::string_view part : {keys.factor, keys.own_area}) {
       if (!part.empty() && table.has(part)) fail_given_twice(table, part, keys.itself);
@@ -91,9 +105,50 @@ double read_coefficient(const TableReader& table, const CoefficientKeys& keys) {
   const double area = table.positive_number(area_key);
   double factor = keys.usual_factor;
   table.read_if_any(keys.factor, factor);
+  parts.mass_kg = mass;
+  parts.*keys.part_area = area;
+  parts.*keys.part_factor = factor;
   const double value = factor * area / mass;
   warn_of_unit(table, area_key, keys, value);
   return value;
+}
+
+constexpr std::string_view message_key = "opm_file";
+
+/// The coefficient that the OPM of a table tells; no value if it has no mass or no area. Areas and
+/// factors of 0 say that the force does not act.
+std::optional<double> coefficient_of_message(const TableReader& table, const CoefficientKeys& keys,
+                                             SpacecraftParts& parts) {
+  if (!parts.mass_kg || !(parts.*keys.part_area)) return std::nullopt;
+  const double mass = *parts.mass_kg, area = *(parts.*keys.part_area);
+  const double factor = (parts.*keys.part_factor).value_or(keys.usual_factor);
+  if (!(mass > 0) || area < 0 || factor < 0) {
+    table.fail(message_key,
+               fmt::format("no {}, got a message with a mass of {:.6g} kg, an area of {:.6g} m^2 "
+                           "and a coefficient of {:.6g}, must be a positive mass and areas and "
+                           "coefficients of at least 0, or beside [spacecraft]",
+                           keys.symbol, mass, area, factor));
+  }
+  parts.*keys.part_factor = factor;
+  const double value = factor * area / mass;
+  warn_of_unit(table, message_key, keys, value);
+  return value;
+}
+
+/// What the OPM of a table tells of the forces that there are.
+SpacecraftSettings coefficients_of_message(const TableReader& table, const SurfaceForces& forces) {
+  SpacecraftSettings settings;
+  const auto message = spacecraft_of_orbit_file(table);
+  if (!message) return settings;
+  settings.parts = {message->mass_kg, message->drag_area_m2, message->drag_coefficient,
+                    message->radiation_area_m2, message->radiation_coefficient};
+  if (forces.has_drag) {
+    settings.drag_m2_kg = coefficient_of_message(table, drag_keys, settings.parts);
+  }
+  if (forces.has_radiation) {
+    settings.radiation_m2_kg = coefficient_of_message(table, radiation_keys, settings.parts);
+  }
+  return settings;
 }
 
 /// Whether a table says anything about a coefficient.
@@ -126,38 +181,12 @@ SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForc
   }
   SpacecraftSettings settings;
   if (forces.has_drag && (!is_deputy || tells(table, drag_keys))) {
-    settings.drag_m2_kg = read_coefficient(table, drag_keys);
+    settings.drag_m2_kg = read_coefficient(table, drag_keys, settings.parts);
   }
   if (forces.has_radiation && (!is_deputy || tells(table, radiation_keys))) {
-    settings.radiation_m2_kg = read_coefficient(table, radiation_keys);
+    settings.radiation_m2_kg = read_coefficient(table, radiation_keys, settings.parts);
   }
   return settings;
-}
-
-/// Refuses keys of `[system]` that stand without the one that they describe.
-void refuse_alone(const TableReader& system, std::initializer_list<std::string_view> keys,
-                  std::string_view what, std::string_view other) {
-  for (const std::string_view key : keys) {
-    if (!system.has(key)) continue;
-    system.fail(key, fmt::format("without {}, got {}, must be left out, or beside {}", what,
-                                 system.found(key), other));
-  }
-}
-
-void read_air(const TableReader& system, EarthSettings& earth) {
-  if (!system.has("atmosphere")) {
-    refuse_alone(system, {"density_factor", "bulge_exponent"}, "air", "atmosphere");
-    return;
-  }
-  AtmosphereSettings air;
-  air.model = static_cast<AtmosphereModel>(system.choice("atmosphere"));
-  if (system.has("density_factor")) air.density_factor = system.positive_number("density_factor");
-  system.read_if_any("bulge_exponent", air.bulge_exponent);
-  if (air.bulge_exponent % 2 != 0) {
-    system.fail("bulge_exponent",
-                fmt::format("odd, got {}, must be 2, 4 or 6", air.bulge_exponent));
-  }
-  earth.atmosphere = air;
 }
 
 void read_light(const TableReader& system, EarthSettings& earth) {
@@ -219,22 +248,13 @@ const TableDescription& spacecraft_table() {
 
 std::vector<SceneKey> surface_force_keys() {
   const std::vector<std::string_view> owner = {"earth"};
-  const AtmosphereSettings air;
-  return {
-      {"atmosphere", form::choice({atmosphere_names.begin(), atmosphere_names.end()}),
-       absent::other("no drag"),
-       "density of the air, which turns with the Earth: `harris-priester` bulges on the "
-       "afternoon side, 100 to 1000 km high",
-       owner},
-      {"density_factor", form::positive(), absent::value(air.density_factor),
-       "a factor of all densities of the air", owner},
-      {"bulge_exponent", form::integer(2, 6), absent::value(air.bulge_exponent),
-       "exponent of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner},
-      {"radiation", form::boolean(), absent::value(false),
-       "whether the Sun's light presses on a spacecraft", owner},
-      {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
-       absent::value(name_of(RadiationSettings().shadow)),
-       "which light the Earth keeps off: `conical` has umbra and penumbra", owner}};
+  return joined<SceneKey>(
+      {atmosphere_keys(),
+       {{"radiation", form::boolean(), absent::value(false),
+         "whether the Sun's light presses on a spacecraft", owner},
+        {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
+         absent::value(name_of(RadiationSettings().shadow)),
+         "which light the Earth keeps off: `conical` has umbra and penumbra", owner}}});
 }
 
 void read_surface_forces(const TableReader& root, SystemSettings& settings) {
@@ -251,12 +271,19 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
   read_air(system, earth);
   read_light(system, earth);
   const SurfaceForces forces(settings);
-  if (forces.any() && !root.has("spacecraft")) {
-    const std::string_view key = forces.has_drag ? "atmosphere" : "radiation";
-    system.fail(key, fmt::format("without a spacecraft, got {}, must stand beside a table "
-                                 "[spacecraft] with mass_kg and area_m2, or {}",
-                                 system.found(key),
-                                 forces.has_drag ? drag_keys.itself : radiation_keys.itself));
+  SpacecraftSettings chief;
+  if (!root.has("spacecraft")) {
+    chief = coefficients_of_message(root.table("nominal"), forces);
+    const bool lacks_drag = forces.has_drag && !chief.drag_m2_kg;
+    if (lacks_drag || (forces.has_radiation && !chief.radiation_m2_kg)) {
+      const std::string_view key = lacks_drag ? "atmosphere" : "radiation";
+      system.fail(
+          key, fmt::format("without a spacecraft, got {}, must stand beside a table "
+                           "[spacecraft] with mass_kg and area_m2, or {}, or a message "
+                           "nominal.opm_file with MASS and {}",
+                           system.found(key), lacks_drag ? drag_keys.itself : radiation_keys.itself,
+                           lacks_drag ? "DRAG_AREA" : "SOLAR_RAD_AREA"));
+    }
   }
   if (root.has("spacecraft")) {
     const TableReader table = root.table("spacecraft");
@@ -265,19 +292,26 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
                  "without air or light, got a spacecraft, must be left out, or system.atmosphere = "
                  "\"harris-priester\" or system.radiation = true");
     }
-    const SpacecraftSettings chief = read_coefficients(table, forces, false);
-    earth.drag_m2_kg = chief.drag_m2_kg.value_or(0);
-    earth.radiation_m2_kg = chief.radiation_m2_kg.value_or(0);
+    chief = read_coefficients(table, forces, false);
   }
+  earth.drag_m2_kg = chief.drag_m2_kg.value_or(0);
+  earth.radiation_m2_kg = chief.radiation_m2_kg.value_or(0);
+  earth.parts = chief.parts;
   if (root.has("jet") && root.table("jet").has("variables")) {
     read_parameters(root.table("jet"), settings);
   }
 }
 
+bool uses_message_of_spacecraft(const TableReader& root, const SystemSettings& system) {
+  return SurfaceForces(system).any() && !root.has("spacecraft");
+}
+
 SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system) {
-  if (!owner.has("spacecraft")) return {};
-  const TableReader table = owner.table("spacecraft");
   const SurfaceForces forces(system);
+  if (!owner.has("spacecraft")) {
+    return forces.any() ? coefficients_of_message(owner, forces) : SpacecraftSettings();
+  }
+  const TableReader table = owner.table("spacecraft");
   if (!forces.any()) {
     table.fail("",
                "without air or light, got a spacecraft, must be left out, or system.model = "

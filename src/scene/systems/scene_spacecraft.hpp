@@ -15,16 +15,21 @@ namespace hamjet::io {
 struct SpacecraftSettings {
   std::optional<double> drag_m2_kg = {};
   std::optional<double> radiation_m2_kg = {};
+  SpacecraftParts parts = {};  ///< what they are made of, as far as it is told
 };
 
 /// The keys of `[system]` about the air and the light of the model `earth`.
 std::vector<SceneKey> surface_force_keys();
 
-/// Reads air and light of the model `earth`, the chief's coefficients, and the names of the
+/// Reads air and light of the model `earth`, the chief's coefficients (of [spacecraft], or else of
+/// the nominal's OPM), and the names of the
 /// parameters in which `[jet]` expands. Refuses a table [spacecraft] of other models.
 void read_surface_forces(const TableReader& root, SystemSettings& system);
 
-/// The table `spacecraft` in the table of a deputy.
+/// Whether the chief's coefficients are those of the nominal's OPM.
+bool uses_message_of_spacecraft(const TableReader& root, const SystemSettings& system);
+
+/// The table `spacecraft` in the table of a deputy, or else what its own OPM says.
 SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system);
 
 }  // namespace hamjet::io

@@ -90,6 +90,9 @@ Json system_json(const SystemSettings& system) {
          of_air([](const EarthSettings& e) { return e.atmosphere->density_factor; })},
         {"bulge_exponent",
          of_air([](const EarthSettings& e) { return e.atmosphere->bulge_exponent; })},
+        {"density_file", of_air([](const EarthSettings& e) {
+           return text_or_null(e.atmosphere->density_file);
+         })},
         {"drag_m2_kg", of_air([](const EarthSettings& e) { return e.drag_m2_kg; })},
         {"radiation_m2_kg", of_light([](const EarthSettings& e) { return e.radiation_m2_kg; })},
         {"shadow", of_light([](const EarthSettings& e) { return name_of(e.radiation->shadow); })},

@@ -10,6 +10,8 @@ using Ending = std::pair<std::string_view, std::string_view>;
 
 const Ending* ending_of(std::string_view name) {
   static constexpr Ending units[] = {{"_kg_m_s", "kg m/s"},
+                                     {"_kg_m3", "kg/m^3"},
+                                     {"_m2_kg", "m^2/kg"},
                                      {"_km3_s2", "km^3/s^2"},
                                      {"_km_s", "km/s"},
                                      {"_m_s2", "m/s^2"},

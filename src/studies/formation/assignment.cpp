@@ -82,7 +82,8 @@ class AssignmentStudy {
     if (!chosen.failure.empty()) return;
     const DeputyFlow* const flow = points_.charted_flow(times[index]);
     const Stopwatch watch(seconds_.solution);
-    const std::vector<double> chief_end = nominal_of(jet);
+    const std::vector<double> orbit_end = nominal_of(jet);
+    const std::vector<double> chief_end = points_.chief_beside(orbit_end, times[index]);
     TransferBoundary boundary(chosen.inversion, flow);
     for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
       if (progress_) {
@@ -90,8 +91,8 @@ class AssignmentStudy {
       }
       for (std::size_t j = 0; j < settings_.slots.size(); ++j) {
         try {
-          const SingleTransfer transfer(scene_, points_.problem(), times[index], chief_end,
-                                        settings_.deputies[i], settings_.slots[j]);
+          const SingleTransfer transfer(scene_, points_.problem(), times[index], orbit_end,
+                                        chief_end, settings_.deputies[i], settings_.slots[j]);
           const BoundaryMomenta momenta =
               transfer.solve(boundary, scene_.order, transfer.momentum_before());
           const TransferAnswer answer = transfer.answer(momenta, scene_.order);
@@ -206,7 +207,7 @@ class AssignmentStudy {
 AssignmentResult study_assignment(const Scene& scene, const ProgressCallback& progress) {
   require_formation_problem(scene, scene.assignment.has_value() && scene.transfer.has_value(),
                             "assignment");
-  require_one_spacecraft(scene, "assignment");
+  require_states_alone(scene, "assignment");
   return AssignmentStudy(scene, progress).run();
 }
 

@@ -76,9 +76,9 @@ std::vector<Underway> grid_of_starts(const Scene& scene, const Route& route, dou
 
 }  // namespace
 
-LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
+CompanionFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
   try {
-    return LinearFlow(problem, last_arrival(*scene.transfer), checkpoints_per_revolution);
+    return CompanionFlow(scene, problem, last_arrival(*scene.transfer), checkpoints_per_revolution);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::too_large) throw;
     throw Error(error.kind(), fmt::format("transfer.longest_coast_s: {}", error.what()));
@@ -86,7 +86,7 @@ LinearFlow coasting_flow(const Scene& scene, const ComputedProblem& problem) {
 }
 
 CoastingTransfer coasting_transfer(const Scene& scene, const ComputedProblem& problem,
-                                   const LinearFlow& flow, const ProgressCallback& progress) {
+                                   const CompanionFlow& flow, const ProgressCallback& progress) {
   constexpr std::size_t most_times = 48;
   constexpr std::size_t most_flown = 12;
   const TransferSettings& settings = *scene.transfer;

@@ -28,10 +28,10 @@ namespace {
 constexpr std::size_t states = 6;
 using State = Eigen::Matrix<double, 6, 1>;
 
-/// The chief's problem with its costates, which are zero along the chief.
-ComputedProblem costate_problem(const ComputedProblem& chief, int order) {
-  ComputedProblem problem = chief;
-  problem.system = costate_system(*chief.system);
+/// The problem of an orbit with its costates, which are zero along it.
+ComputedProblem costate_problem(const ComputedProblem& orbit, int order) {
+  ComputedProblem problem = orbit;
+  problem.system = costate_system(*orbit.system);
   problem.nominal.resize(2 * states, 0.0);
   problem.degrees_of_freedom.clear();
   problem.components.clear();
@@ -52,11 +52,15 @@ class ThrustedFlight {
  public:
   ThrustedFlight(const Scene& scene, const ComputedProblem& problem, double time)
       : problem_(problem), time_(time), units_(metric_units(scene)), frame_(scene.transfer->frame) {
-    chief_end_ = exact_flow(problem.system, problem.nominal, problem.start_time, time);
+    orbit_end_ = exact_flow(problem.system, problem.nominal, problem.start_time, time);
+    const std::vector<double> orbit(orbit_end_.begin(), orbit_end_.begin() + states);
+    chief_end_ = is_like_chief(scene)
+                     ? orbit
+                     : exact_flow(make_system(scene), scene.nominal, scene.start_time, time);
     start_ = ChiefFrame(std::span(problem.nominal).first(states), units_, frame_)
                  .deviation(scene.transfer->start);
-    end_ = scene.transfer->end.deviation({chief_end_.begin(), chief_end_.begin() + states}, units_,
-                                         frame_);
+    end_ = state_sum(scene.transfer->end.deviation(chief_end_, units_, frame_),
+                     state_difference(chief_end_, orbit));
   }
 
   const std::vector<double>& start() const { return start_; }
@@ -78,7 +82,7 @@ class ThrustedFlight {
         exact_flow(problem_.system, deputy(answer.costates), problem_.start_time, time_);
     State miss;
     for (std::size_t i = 0; i < states; ++i) {
-      miss[static_cast<Eigen::Index>(i)] = flown[i] - chief_end_[i] - end_[i];
+      miss[static_cast<Eigen::Index>(i)] = flown[i] - orbit_end_[i] - end_[i];
     }
     answer.miss_m = miss.head<3>().norm() * units_.length_m;
     answer.velocity_miss_m_s = miss.tail<3>().norm() * units_.velocity_m_s();
@@ -102,9 +106,10 @@ class ThrustedFlight {
   double time_;
   MetricUnits units_;
   RelativeFrame frame_;
+  std::vector<double> orbit_end_;  ///< of a spacecraft like the deputy, with its costates
   std::vector<double> chief_end_;
   std::vector<double> start_;
-  std::vector<double> end_;
+  std::vector<double> end_;  ///< from that orbit
 };
 
 void ThrustedFlight::measure(EnergyOptimalTransfer& transfer, int panels) const {
@@ -244,12 +249,12 @@ void solve(const Scene& scene, const ComputedProblem& problem, const FlowJet<dou
 
 }  // namespace
 
-EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const ComputedProblem& chief,
+EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const ComputedProblem& orbit,
                                                 const ProgressCallback& progress) {
   constexpr std::size_t most_times = 48;
   EnergyOptimalTransfers result;
   result.order = scene.transfer->thrust_order;
-  const ComputedProblem problem = costate_problem(chief, result.order);
+  const ComputedProblem problem = costate_problem(orbit, result.order);
   const std::vector<double> times = some_times(scene.transfer->times, most_times);
   result.transfers.resize(times.size());
   visit_jets(problem, symplectic_integrator(scene), times,

@@ -51,20 +51,34 @@ std::vector<Difference> differences_of(const Scene& scene) {
 
 }  // namespace
 
+bool is_like_chief(const Scene& scene) { return differences_of(scene).empty(); }
+
 void require_one_spacecraft(const Scene& scene, std::string_view table) {
   for (const Difference& difference : differences_of(scene)) {
     throw Error(ErrorKind::scene,
                 fmt::format("{}: is about spacecraft that are alike, got a deputy with {} = {:.6g} "
-                            "beside a chief with {:.6g}, must be the same; motion serves deputies "
-                            "that differ",
+                            "beside a chief with {:.6g}, must be the same; motion, transfer and "
+                            "assignment serve deputies that differ",
                             table, difference.parameter, difference.deputy, difference.chief));
   }
+  require_states_alone(scene, table);
+}
+
+void require_states_alone(const Scene& scene, std::string_view table) {
   if (scene.system.earth && !scene.system.earth->parameters.empty()) {
     throw Error(ErrorKind::scene,
                 fmt::format("{}: expands in positions and momenta alone, got jet.variables with "
                             "{}, must be without it",
                             table, scene.system.earth->parameters[0]));
   }
+}
+
+Scene with_deputy_coefficients(Scene scene) {
+  if (is_like_chief(scene)) return scene;
+  EarthSettings& earth = *scene.system.earth;
+  earth.drag_m2_kg = scene.deputy->drag_m2_kg.value_or(earth.drag_m2_kg);
+  earth.radiation_m2_kg = scene.deputy->radiation_m2_kg.value_or(earth.radiation_m2_kg);
+  return scene;
 }
 
 Scene with_deputy_parameters(Scene scene) {

@@ -11,9 +11,18 @@ namespace hamjet {
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table);
 
-/// Throws Error(scene) if the deputy has another C_D A / m or C_R A / m than the chief, or if jets
-/// are expanded in a parameter: this study has polynomials about one kind of spacecraft.
+/// Whether the deputy has the chief's C_D A / m and C_R A / m.
+bool is_like_chief(const Scene& scene);
+
+/// Throws Error(scene) if jets are expanded in a parameter.
+void require_states_alone(const Scene& scene, std::string_view table);
+
+/// Throws Error(scene) if the deputy is unlike its chief, or if jets are expanded in a parameter:
+/// this study has polynomials about one kind of spacecraft.
 void require_one_spacecraft(const Scene& scene, std::string_view table);
+
+/// The scene whose chief has the deputy's C_D A / m and C_R A / m, in the light of the chief.
+Scene with_deputy_coefficients(Scene scene);
 
 /// The scene whose states end with the parameters in which the deputy differs from the chief, those
 /// alone, and whose jets are expanded in them.

@@ -8,6 +8,7 @@
 #include "../../algebra/state_sums.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../flights/extreme_distance.hpp"
+#include "companion_flow.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -17,12 +18,14 @@ double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
                       double time) {
   const Eigen::Vector3d semi_axes = *scene.transfer->keep_out_m / metric_units(scene).length_m;
   ExtremeDistance least(ExtremeDistance::Kind::least);
-  const std::vector<double> deputy = state_sum(chief, deviation);
-  fly_arcs(make_system(scene), {chief, deputy}, start_time, time, [&](const FlightArc& arc) {
-    ArcCurve curve = rtn_separation_along(arc, 0, 1);
-    for (std::size_t i = 0; i < 3; ++i) curve[i] /= semi_axes[static_cast<Eigen::Index>(i)];
-    least.add(arc, curve);
-  });
+  const FlownTogether both(scene);
+  fly_arcs(both.system(), {both.of_chief(chief), both.of_deputy(state_sum(chief, deviation))},
+           start_time, time, [&](const FlightArc& arc) {
+             ArcCurve curve = rtn_separation_along(arc, 0, 1);
+             for (std::size_t i = 0; i < 3; ++i)
+               curve[i] /= semi_axes[static_cast<Eigen::Index>(i)];
+             least.add(arc, curve);
+           });
   return least.distance();
 }
 
@@ -38,9 +41,9 @@ void WayLimits::fly(const std::vector<double>& chief, const std::vector<double>&
     ratio_ = std::min(ratio_, keep_out_ratio(scene_, chief, deviation, start_time, time));
   }
   if (surface_) {
-    const std::vector<double> deputy = state_sum(chief, deviation);
-    lowest_ =
-        std::min(lowest_, lowest_point(make_system(scene_), deputy, start_time, time).distance);
+    const FlownTogether both(scene_);
+    const std::vector<double> deputy = both.of_deputy(state_sum(chief, deviation));
+    lowest_ = std::min(lowest_, lowest_point(both.system(), deputy, start_time, time).distance);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "../../algebra/state_sums.hpp"
 #include "../flights/extreme_distance.hpp"
+#include "companion_flow.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -15,6 +16,7 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
   const auto frame = [&](const std::vector<double>& chief) {
     return ChiefFrame(chief, units, scene.transfer->frame);
   };
+  const FlownTogether both(scene);
   std::vector<const AssignedTransfer*> flown;
   // The deputies after their first impulses, then the chief, which defines the frame at their
   // arrivals.
@@ -25,11 +27,12 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
     flown.push_back(&assigned);
     RelativeState start = scene.assignment->deputies[assigned.deputy];
     start.velocity_m_s += assigned.transfer.best().start_change_m_s;
-    states.push_back(state_sum(scene.nominal, frame(scene.nominal).deviation(start)));
+    states.push_back(
+        both.of_deputy(state_sum(scene.nominal, frame(scene.nominal).deviation(start))));
     arrivals.push_back(assigned.transfer.time);
   }
   if (flown.size() < 2) return {};
-  states.push_back(scene.nominal);
+  states.push_back(both.of_chief(scene.nominal));
   std::sort(arrivals.begin(), arrivals.end(),
             [](double a, double b) { return std::abs(a) < std::abs(b); });
   arrivals.erase(std::unique(arrivals.begin(), arrivals.end()), arrivals.end());
@@ -49,16 +52,17 @@ std::vector<DeputyPair> nearest_of_pairs(const Scene& scene,
       }
     }
   };
-  const SharedSystem system = make_system(scene);
   double now = 0;
   for (const double arrival : arrivals) {
-    states = fly_arcs(system, std::move(states), scene.start_time + now, arrival - now, look, now);
+    states = fly_arcs(both.system(), std::move(states), scene.start_time + now, arrival - now, look,
+                      now);
     now = arrival;
     for (std::size_t i = 0; i < flown.size(); ++i) {
       if (flown[i]->transfer.time != arrival) continue;
       const RelativeState change = {Eigen::Vector3d::Zero(),
                                     flown[i]->transfer.best().end_change_m_s};
-      states[i] = state_sum(std::move(states[i]), frame(states.back()).deviation(change));
+      const std::vector<double> impulse = frame(states.back()).deviation(change);
+      for (std::size_t k = 0; k < impulse.size(); ++k) states[i][k] += impulse[k];
     }
   }
   for (std::size_t pair = 0; pair < pairs.size(); ++pair) {

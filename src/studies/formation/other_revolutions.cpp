@@ -146,7 +146,7 @@ class TransfersOfTime {
 }  // namespace
 
 OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& problem,
-                                   const LinearFlow& flow, const ProgressCallback& progress) {
+                                   const CompanionFlow& flow, const ProgressCallback& progress) {
   const TransferSettings& settings = *scene.transfer;
   OtherRevolutions result;
   Route route(scene, problem, flow);

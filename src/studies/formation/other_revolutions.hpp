@@ -1,7 +1,7 @@
 #pragma once
 
+#include "companion_flow.hpp"
 #include "hamjet/detail/studies/progress.hpp"
-#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -14,6 +14,6 @@ namespace hamjet {
 /// number, the one whose velocity is nearest to the deputy's own is the transfer that polynomials
 /// answer; it is left out.
 OtherRevolutions other_revolutions(const Scene& scene, const ComputedProblem& problem,
-                                   const LinearFlow& flow, const ProgressCallback& progress);
+                                   const CompanionFlow& flow, const ProgressCallback& progress);
 
 }  // namespace hamjet

@@ -25,7 +25,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 }  // namespace
 
-Route::Route(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow)
+Route::Route(const Scene& scene, const ComputedProblem& problem, const CompanionFlow& flow)
     : scene_(scene),
       problem_(problem),
       flow_(flow),
@@ -33,7 +33,7 @@ Route::Route(const Scene& scene, const ComputedProblem& problem, const LinearFlo
       momentum_unit_(std::ldexp(1.0, problem.momentum_exponent)) {}
 
 ChiefFrame Route::frame(double time) const {
-  return {flow_.nominal(time), units_, scene_.transfer->frame};
+  return {flow_.chief(time), units_, scene_.transfer->frame};
 }
 
 Underway Route::start() const { return {0, frame(0).deviation(scene_.transfer->start)}; }
@@ -88,11 +88,14 @@ double Route::linear_change_m_s(const Underway& from, double time) const {
 }
 
 std::vector<double> Route::place(double time, const Eigen::Vector3d& position_m) const {
-  return frame(time).deviation({position_m, Eigen::Vector3d::Zero()});
+  return state_sum(frame(time).deviation({position_m, Eigen::Vector3d::Zero()}),
+                   flow_.chief_deviation(time));
 }
 
 std::vector<double> Route::end(double time) const {
-  return scene_.transfer->end.deviation(flow_.nominal(time), units_, scene_.transfer->frame);
+  return state_sum(
+      scene_.transfer->end.deviation(flow_.chief(time), units_, scene_.transfer->frame),
+      flow_.chief_deviation(time));
 }
 
 Underway Route::fly_to(const Underway& from, double time, const std::vector<double>& wanted,
@@ -109,11 +112,11 @@ Underway Route::fly_to(const Underway& from, double time, const std::vector<doub
 
 Underway Route::fly_from_guess(const Underway& from, double time, const std::vector<double>& wanted,
                                std::vector<double> guess, WaypointPlan& plan) {
-  const std::vector<double> chief = flow_.nominal(from.time);
-  const std::vector<double> chief_then = flow_.nominal(time);
+  const std::vector<double> orbit = flow_.nominal(from.time);
+  const std::vector<double> orbit_then = flow_.nominal(time);
   const TwoPointFlight flight =
       fly_between(problem_.system, std::move(guess), problem_.start_time + from.time,
-                  position_of(chief_then) + position_of(wanted), time - from.time,
+                  position_of(orbit_then) + position_of(wanted), time - from.time,
                   scene_.transfer->refined_miss_m / units_.length_m);
   if (!flight.is_found()) {
     throw Error(
@@ -121,7 +124,7 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
         fmt::format("the leg from {:.6g} s to {:.6g} s was not found: {}",
                     from.time * scene_.units.time_s, time * scene_.units.time_s, flight.failure));
   }
-  ways_.push_back(state_difference(flight.start, chief));
+  ways_.push_back(state_difference(flight.start, orbit));
   add_impulse(plan, from.time, ways_.back(), from.deviation);
   WaypointLeg leg;
   leg.start = from.time;
@@ -129,7 +132,7 @@ Underway Route::fly_from_guess(const Underway& from, double time, const std::vec
   leg.flights = flight.flights;
   leg.miss_m = flight.miss * units_.length_m;
   plan.legs.push_back(leg);
-  return {time, state_difference(flight.end, chief_then)};
+  return {time, state_difference(flight.end, orbit_then)};
 }
 
 void Route::finish(const Underway& there, WaypointPlan& plan, bool has_primer) const {
@@ -177,8 +180,8 @@ void Route::judge_limits(WaypointPlan& plan) const {
   if (begun != 0) limits.fly(problem_.nominal, start().deviation, problem_.start_time, begun);
   for (std::size_t k = 0; k < plan.legs.size(); ++k) {
     const WaypointLeg& leg = plan.legs[k];
-    limits.fly(flow_.nominal(leg.start), ways_[k], problem_.start_time + leg.start,
-               leg.end - leg.start);
+    limits.fly(flow_.chief(leg.start), state_difference(ways_[k], flow_.chief_deviation(leg.start)),
+               problem_.start_time + leg.start, leg.end - leg.start);
   }
   plan.forbidden = limits.forbidden();
 }

@@ -3,14 +3,15 @@
 #include <optional>
 #include <vector>
 
-#include "hamjet/detail/studies/singular_times.hpp"
+#include "companion_flow.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
 
-/// A deputy in flight: its deviation from the chief at a time, before any impulse at that time.
+/// A deputy in flight: its deviation from the orbit of a CompanionFlow at a time, before any
+/// impulse at that time.
 struct Underway {
   double time = 0;
   std::vector<double> deviation;  ///< canonical (dq, dp)
@@ -20,7 +21,7 @@ struct Underway {
 /// All arguments of the constructor must outlive it.
 class Route {
  public:
-  Route(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow);
+  Route(const Scene& scene, const ComputedProblem& problem, const CompanionFlow& flow);
 
   /// The deputy at the start, and after a time of flight without an impulse. Throws as exact_flow.
   Underway start() const;
@@ -32,13 +33,13 @@ class Route {
   /// Throws Error(numerical) if no velocity leads there.
   double linear_change_m_s(const Underway& from, double time) const;
 
-  /// Canonical deviations from the chief at a time: of a place along the axes of the scene's frame,
-  /// and of the scene's end.
+  /// Canonical deviations from that orbit at a time: of a place along the axes of the scene's
+  /// frame, and of the scene's end.
   std::vector<double> place(double time, const Eigen::Vector3d& position_m) const;
   std::vector<double> end(double time) const;
 
   /// Adds the leg from the deputy's present state to the place with a given deviation from the
-  /// chief at `time`, with the impulse at its start. The answer of the linear flow is corrected by
+  /// orbit at `time`, with the impulse at its start. The answer of the linear flow is corrected by
   /// Newton's method until the miss is at most the scene's `refined_miss_m`. Throws
   /// Error(numerical) if this fails.
   Underway fly_to(const Underway& from, double time, const std::vector<double>& wanted,
@@ -50,7 +51,7 @@ class Route {
   /// Adds the impulse at the end, and results that need the whole plan; primer vectors of the legs
   /// if `has_primer`.
   void finish(const Underway& there, WaypointPlan& plan, bool has_primer = true) const;
-  /// The deviation from the chief at the start of the last leg, after the impulse.
+  /// The deviation from the orbit at the start of the last leg, after the impulse.
   const std::vector<double>& begun() const { return ways_.back(); }
   /// Removes the legs after the first `count`.
   void keep_legs(std::size_t count) { ways_.resize(count); }
@@ -69,7 +70,7 @@ class Route {
 
   const Scene& scene_;
   const ComputedProblem& problem_;
-  const LinearFlow& flow_;
+  const CompanionFlow& flow_;
   MetricUnits units_;
   double momentum_unit_;
   /// Deviations at the starts of the legs, after the impulses.

@@ -42,17 +42,19 @@ double rounding_of_flights(const ComputedProblem& problem, double time) {
 }
 
 SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
+                               const std::vector<double>& orbit_end,
                                const std::vector<double>& chief_end, const RelativeState& start,
                                const ArrivalState& end)
     : scene_(scene),
       problem_(problem),
       time_(time),
       units_(metric_units(scene)),
-      chief_end_(chief_end),
+      orbit_end_(orbit_end),
       start_frame_(problem.nominal, units_, scene.transfer->frame),
       end_frame_(chief_end, units_, scene.transfer->frame),
       start_(start_frame_.deviation(start)),
-      end_(end.deviation(chief_end, units_, scene.transfer->frame)) {}
+      end_(state_sum(end.deviation(chief_end, units_, scene.transfer->frame),
+                     state_difference(chief_end, orbit_end))) {}
 
 std::vector<double> SingleTransfer::linear_deviation(
     const Eigen::Matrix<double, 6, 6>& flow) const {
@@ -107,7 +109,7 @@ std::vector<double> SingleTransfer::deputy(const std::vector<double>& initial_mo
 std::vector<double> SingleTransfer::fly(const std::vector<double>& initial_momentum) const {
   return state_difference(
       exact_flow(problem_.system, deputy(initial_momentum), problem_.start_time, time_),
-      chief_end_);
+      orbit_end_);
 }
 
 double SingleTransfer::miss_m(const std::vector<double>& flown) const {

@@ -51,10 +51,11 @@ class TransferBoundary {
 /// constructor must outlive it.
 class SingleTransfer {
  public:
-  /// `chief_end` is the chief's state at the end; `time` is canonical.
+  /// The orbit of the problem starts with the chief (CompanionFlow); `orbit_end` and `chief_end`
+  /// are the states of both at the end. `time` is canonical.
   SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,
-                 const std::vector<double>& chief_end, const RelativeState& start,
-                 const ArrivalState& end);
+                 const std::vector<double>& orbit_end, const std::vector<double>& chief_end,
+                 const RelativeState& start, const ArrivalState& end);
 
   /// The deviation at the start, after the first impulse, by the linear flow alone.
   std::vector<double> linear_deviation(const Eigen::Matrix<double, 6, 6>& flow) const;
@@ -70,8 +71,8 @@ class SingleTransfer {
                                 const BoundaryMomenta& momenta) const;
   /// The velocity changes that lead to these momenta.
   TransferAnswer answer(const BoundaryMomenta& momenta, int order) const;
-  /// Flies the deputy from the start with this initial momentum (a deviation); returns (dq, dp) at
-  /// the end. Throws Error(numerical) as exact_flow.
+  /// Flies the deputy from the start with this initial momentum (a deviation); returns (dq, dp)
+  /// from the orbit at the end. Throws Error(numerical) as exact_flow.
   std::vector<double> fly(const std::vector<double>& initial_momentum) const;
   /// Distance in metres of a flown deviation from the wanted end.
   double miss_m(const std::vector<double>& flown) const;
@@ -90,11 +91,11 @@ class SingleTransfer {
   const ComputedProblem& problem_;
   double time_;
   MetricUnits units_;
-  const std::vector<double>& chief_end_;
+  const std::vector<double>& orbit_end_;
   ChiefFrame start_frame_;
   ChiefFrame end_frame_;
   std::vector<double> start_;  ///< canonical (dq, dp) before the first impulse
-  std::vector<double> end_;    ///< canonical (dq, dp) after the second impulse
+  std::vector<double> end_;    ///< canonical (dq, dp) from the orbit, after the second impulse
 };
 
 }  // namespace hamjet

@@ -70,7 +70,8 @@ double TransferAnswer::total_change_m_s() const {
 TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
                               const EarlierJet* earlier) {
   require_formation_problem(asked, asked.transfer.has_value(), "transfer");
-  require_one_spacecraft(asked, "transfer");
+  require_states_alone(asked, "transfer");
+  if (earlier != nullptr) require_one_spacecraft(asked, "transfer from an earlier jet");
   Scene scene = asked;
   if (earlier != nullptr) {
     scene.order = earlier->jet.at(0).order();
@@ -81,8 +82,8 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   result.scene = scene;
   const RelativeTransfer ends{settings.start, settings.end};
   // A wait that is too long is refused before the work starts.
-  const ComputedProblem problem = make_problem(scene);
-  std::optional<LinearFlow> waiting;
+  const ComputedProblem problem = make_problem(with_deputy_coefficients(scene));
+  std::optional<CompanionFlow> waiting;
   if (settings.longest_coast) waiting = coasting_flow(scene, problem);
   TransferPoints points(scene, progress, result.seconds);
   result.conditions.kinds = points.kinds();
@@ -147,7 +148,8 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     const Stopwatch watch(result.seconds.thrust);
     result.thrust = energy_optimal_transfers(scene, problem, progress);
   }
-  if (scene.validity) result.validity = study_validity(asked, progress);
+  // Of deputies about one like themselves.
+  if (scene.validity) result.validity = study_validity(with_deputy_coefficients(asked), progress);
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();
   result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), false));
@@ -203,15 +205,17 @@ bool has_orbital_plane(const std::vector<double>& chief) {
 
 RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
                                 const std::vector<double>& times) {
-  const Scene& scene = result.scene;
+  const Scene scene = with_deputy_parameters(result.scene);
   const std::vector<double>& chief = scene.nominal;
   const MetricUnits units = metric_units(scene);
   const bool is_inertial =
       scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief);
   const auto fly = [&](const RelativeState& start, const std::vector<double>& to) {
-    return flown_trajectory(scene, ChiefFrame(chief, units, scene.transfer->frame).deviation(start),
-                            is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating,
-                            to);
+    std::vector<double> deviation =
+        ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
+    for (const double difference : deputy_parameters(scene)) deviation.push_back(difference);
+    return flown_trajectory(
+        scene, deviation, is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating, to);
   };
   RelativeState start = scene.transfer->start;
   const int intervals = interval_count(scene, scene.duration, drawn_path);

@@ -59,7 +59,7 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
     : scene_(scene),
       settings_(*scene.transfer),
       seconds_(seconds),
-      problem_(make_problem(scene)),
+      problem_(make_problem(with_deputy_coefficients(scene))),
       kinds_(all_kinds(3)),
       coordinates_(measured_coordinates_of(scene)) {
   if (coordinates_ != JetCoordinates::cartesian) {
@@ -90,17 +90,17 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   // is some singularity anyway.
   const double quarter = std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5);
   const double margin = std::min(settings_.singular_margin, quarter);
-  flow_.emplace(problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
+  flow_.emplace(scene_, problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
                 [&](double done) {
                   if (progress) progress("linear flow", done);
                 });
-  const LinearFlow& flow = *flow_;
+  const CompanionFlow& flow = *flow_;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
     if (progress) {
       progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
     }
     for (SingularTime& found : hamjet::find_singular_times(flow, kinds_[k])) {
-      found.direction_rtn = along_rtn(flow.nominal(found.time), found.direction);
+      found.direction_rtn = along_rtn(flow.chief(found.time), found.direction);
       singular_times_.push_back(std::move(found));
     }
   }
@@ -136,10 +136,12 @@ std::vector<double> TransferPoints::expansion_parameters(
     parameters.push_back(std::numeric_limits<double>::epsilon() * comparable.norm() *
                          blocks.back().inverse().norm());
   }
-  const std::vector<double> chief_end = nominal_of(jet);
+  const std::vector<double> orbit_end = nominal_of(jet);
+  const std::vector<double> chief_end = chief_beside(orbit_end, time);
   MonomialValues values(jet[0].space_pointer());
   for (const RelativeTransfer& ends : transfers) {
-    const SingleTransfer transfer(scene_, problem_, time, chief_end, ends.start, ends.end);
+    const SingleTransfer transfer(scene_, problem_, time, orbit_end, chief_end, ends.start,
+                                  ends.end);
     values.set_point(transfer.linear_deviation(flow));
     FlowMatrix changed;
     for (std::size_t i = 0; i < 6; ++i) {
@@ -203,7 +205,8 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
   // itself.
   std::optional<SingleTransfer> of_ends;
   try {
-    of_ends.emplace(scene_, problem_, chosen.time, flown_chief(chosen.time), ends.start, ends.end);
+    const FlownOrbits& flown = flown_orbits(chosen.time);
+    of_ends.emplace(scene_, problem_, chosen.time, flown.orbit, flown.chief, ends.start, ends.end);
   } catch (const Error& error) {
     // The end may be given in a form that is not defined at the chief's state then.
     if (error.kind() != ErrorKind::numerical) throw;
@@ -259,12 +262,16 @@ TransferPoint TransferPoints::answer(const ChosenKind& chosen, const FlowJet<dou
 void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& point,
                                bool finds_holding) {
   if (!point.has_answer()) return;
-  const std::vector<double>& chief = flown_chief(point.time);
+  const std::vector<double>& chief = flown_orbits(point.time).chief;
   const MetricUnits units = metric_units(scene_);
   const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
   point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
-  point.drift = relative_drift(scene_, chief, end, problem_.start_time + point.time,
-                               settings_.frame, finds_holding);
+  // The coefficients of both end the states, and their difference the deviation.
+  const FlownTogether both(scene_);
+  const std::vector<double> together = both.of_chief(chief);
+  point.drift = relative_drift(both.scene(), together,
+                               state_difference(both.of_deputy(state_sum(chief, end)), together),
+                               problem_.start_time + point.time, settings_.frame, finds_holding);
 }
 
 void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& point) {
@@ -347,19 +354,27 @@ double TransferPoints::flight_floor_m(const FlowJet<double>& jet) const {
 }
 
 double TransferPoints::chief_error_m(double time, const FlowJet<double>& jet) {
-  const std::vector<double>& flown = flown_chief(time);
+  const std::vector<double>& flown = flown_orbits(time).orbit;
   const std::vector<double> nominal = nominal_of(jet);
   return std::hypot(flown[0] - nominal[0], flown[1] - nominal[1], flown[2] - nominal[2]) *
          metric_units(scene_).length_m;
 }
 
-const std::vector<double>& TransferPoints::flown_chief(double time) {
-  if (flown_chief_.empty() || time != chief_time_) {
+std::vector<double> TransferPoints::chief_beside(const std::vector<double>& orbit,
+                                                 double time) const {
+  return state_sum(orbit, flow_->chief_deviation(time));
+}
+
+const TransferPoints::FlownOrbits& TransferPoints::flown_orbits(double time) {
+  if (flown_.orbit.empty() || time != flown_.time) {
     const Stopwatch watch(seconds_.proof);
-    flown_chief_ = exact_flow(problem_.system, problem_.nominal, problem_.start_time, time);
-    chief_time_ = time;
+    flown_.orbit = exact_flow(problem_.system, problem_.nominal, problem_.start_time, time);
+    flown_.chief = is_like_chief(scene_)
+                       ? flown_.orbit
+                       : exact_flow(make_system(scene_), scene_.nominal, scene_.start_time, time);
+    flown_.time = time;
   }
-  return flown_chief_;
+  return flown_;
 }
 
 }  // namespace hamjet

@@ -6,6 +6,7 @@
 
 #include "../../maps/hamilton_jacobi.hpp"
 #include "../kind_choice.hpp"
+#include "companion_flow.hpp"
 #include "deputy_flows.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
@@ -46,8 +47,10 @@ class TransferPoints {
   /// The coordinates of the polynomials that answer; not automatic.
   const ChosenCoordinates& coordinates() const noexcept { return coordinates_; }
 
-  /// The flow about the chief, to beyond the scene's last transfer time.
-  const LinearFlow& linear_flow() const noexcept { return *flow_; }
+  /// The flow about the orbit of the polynomials, to beyond the scene's last transfer time.
+  const CompanionFlow& linear_flow() const noexcept { return *flow_; }
+  /// The chief's state at a time at which the orbit of the polynomials is here.
+  std::vector<double> chief_beside(const std::vector<double>& orbit, double time) const;
 
   bool is_near_singular(double time) const;
 
@@ -91,9 +94,14 @@ class TransferPoints {
                                            double time) const;
   void find_singular_times(const ProgressCallback& progress);
   std::optional<double> singular_distance(double time) const;
-  /// The chief flown to a time; the last state is kept, because several deputies and the chief's
-  /// error need it.
-  const std::vector<double>& flown_chief(double time);
+  /// The chief, and the orbit of the polynomials, flown to a time; the last states are kept,
+  /// because several deputies and the error of the orbit need them.
+  struct FlownOrbits {
+    double time = 0;
+    std::vector<double> orbit;  ///< empty before the first flight
+    std::vector<double> chief;
+  };
+  const FlownOrbits& flown_orbits(double time);
   /// Judges whether the scene allows the best answer.
   void judge_limits(const RelativeTransfer& ends, TransferPoint& point);
   void measure_residual(const ChosenKind& chosen, const FlowJet<double>& jet,
@@ -102,13 +110,12 @@ class TransferPoints {
   const Scene& scene_;
   const TransferSettings& settings_;
   TransferSeconds& seconds_;
-  ComputedProblem problem_;
+  ComputedProblem problem_;                        ///< of spacecraft like the deputy
   std::optional<ComputedProblem> linear_problem_;  ///< see jet_problem
-  std::optional<LinearFlow> flow_;
+  std::optional<CompanionFlow> flow_;
   std::vector<GeneratingFunctionKind> kinds_;
   KindChoice choice_;
-  double chief_time_ = 0;
-  std::vector<double> flown_chief_;  ///< at the time of the last flight
+  FlownOrbits flown_;
   ChosenCoordinates coordinates_;
   /// Propagation of the flows in other coordinates.
   std::optional<DeputyFlowPropagation> propagation_;

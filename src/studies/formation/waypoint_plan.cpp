@@ -15,7 +15,7 @@ double WaypointPlan::total_change_m_s() const {
 }
 
 WaypointTransfers waypoint_transfers(const Scene& scene, const ComputedProblem& problem,
-                                     const LinearFlow& flow, const ProgressCallback& progress) {
+                                     const CompanionFlow& flow, const ProgressCallback& progress) {
   const TransferSettings& settings = *scene.transfer;
   WaypointTransfers transfers;
   Route route(scene, problem, flow);

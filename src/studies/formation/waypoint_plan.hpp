@@ -1,7 +1,7 @@
 #pragma once
 
+#include "companion_flow.hpp"
 #include "hamjet/detail/studies/progress.hpp"
-#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/detail/studies/waypoint_plan.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -11,6 +11,6 @@ namespace hamjet {
 /// waypoint. The answer of the linear flow for each leg is corrected by Newton's method on flown
 /// trajectories, until the miss is at most the scene's `refined_miss_m`.
 WaypointTransfers waypoint_transfers(const Scene& scene, const ComputedProblem& problem,
-                                     const LinearFlow& flow, const ProgressCallback& progress);
+                                     const CompanionFlow& flow, const ProgressCallback& progress);
 
 }  // namespace hamjet

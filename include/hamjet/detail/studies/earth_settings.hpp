@@ -12,6 +12,7 @@
 
 namespace hamjet {
 
+class DensityProfile;
 class EarthOrientation;
 class Sunlight;
 class SphericalHarmonicCoefficients;
@@ -19,12 +20,12 @@ class SphericalHarmonicCoefficients;
 /// C_D where a scene gives none: of a compact body in free molecular flow.
 inline constexpr double usual_drag_coefficient = 2.2;
 
-/// How dense the air is; the exponential one has no bulge.
-enum class AtmosphereModel { harris_priester, exponential };
+/// How dense the air is; the exponential one and a table of the scene's have no bulge.
+enum class AtmosphereModel { harris_priester, exponential, table };
 
 /// The models' names in scenes and results, in the order of the enumeration.
-inline constexpr std::array<std::string_view, 2> atmosphere_names = {"harris-priester",
-                                                                     "exponential"};
+inline constexpr std::array<std::string_view, 3> atmosphere_names = {"harris-priester",
+                                                                     "exponential", "table"};
 
 inline std::string_view name_of(AtmosphereModel model) {
   return atmosphere_names[static_cast<std::size_t>(model)];
@@ -33,8 +34,12 @@ inline std::string_view name_of(AtmosphereModel model) {
 /// The air of the model `earth`, see TurningAtmosphere.
 struct AtmosphereSettings {
   AtmosphereModel model = AtmosphereModel::harris_priester;
-  double density_factor = 1;  ///< of all densities
-  int bulge_exponent = 4;     ///< 2 for low inclinations to 6 for polar orbits
+  double density_factor = 1;                      ///< of all densities
+  int bulge_exponent = 4;                         ///< 2 for low inclinations to 6 for polar orbits
+  std::vector<double> heights_km;                 ///< of a table: at least 4, increasing
+  std::vector<double> densities_kg_m3;            ///< there, positive
+  std::string density_file;                       ///< of the table, as in the scene; may be empty
+  std::shared_ptr<const DensityProfile> profile;  ///< through the table
 };
 
 /// C_R where a scene gives none: between 1 of a sphere that absorbs and 1.9 of aluminium
@@ -51,6 +56,15 @@ inline constexpr std::array<std::string_view, 2> shadow_names = {"conical", "non
 inline std::string_view name_of(ShadowModel model) {
   return shadow_names[static_cast<std::size_t>(model)];
 }
+
+/// What a scene says of a spacecraft as orbit messages do, as far as it does.
+struct SpacecraftParts {
+  std::optional<double> mass_kg;
+  std::optional<double> drag_area_m2;
+  std::optional<double> drag_coefficient;
+  std::optional<double> radiation_area_m2;
+  std::optional<double> radiation_coefficient;
+};
 
 /// The pressure of the Sun's light in the model `earth`, see RadiationPressure.
 struct RadiationSettings {
@@ -74,6 +88,7 @@ struct EarthSettings {
   double drag_m2_kg = 0;                                ///< C_D A / m of the chief
   std::optional<RadiationSettings> radiation;  ///< absent if the Sun's light presses on nothing
   double radiation_m2_kg = 0;                  ///< C_R A / m of the chief
+  SpacecraftParts parts;                       ///< of which both are made, for messages
   /// The light along the nominal, in canonical times; null where all is lit. See light_nominal.
   std::shared_ptr<const Sunlight> sunlight;
   /// Names of the parameters with which states end, see earth_parameters.
@@ -85,10 +100,13 @@ struct EarthSettings {
   double last_s = 0;
 };
 
-HAMJET_FIELDS(AtmosphereSettings, model, density_factor, bulge_exponent)
+HAMJET_FIELDS(AtmosphereSettings, model, density_factor, bulge_exponent, heights_km,
+              densities_kg_m3, density_file, profile)
+HAMJET_FIELDS(SpacecraftParts, mass_kg, drag_area_m2, drag_coefficient, radiation_area_m2,
+              radiation_coefficient)
 HAMJET_FIELDS(RadiationSettings, shadow)
 HAMJET_FIELDS(EarthSettings, degree, order, field, has_sun, has_moon, mu_sun_km3_s2, mu_moon_km3_s2,
               epoch_tt, orientation_file, orientation_checksum, orientation, atmosphere, drag_m2_kg,
-              radiation, radiation_m2_kg, sunlight, parameters, axes, first_s, last_s)
+              radiation, radiation_m2_kg, parts, sunlight, parameters, axes, first_s, last_s)
 
 }  // namespace hamjet

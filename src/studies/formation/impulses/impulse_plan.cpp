@@ -69,7 +69,7 @@ struct Start {
 
 class PlanSearch {
  public:
-  PlanSearch(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
+  PlanSearch(const Scene& scene, const ComputedProblem& problem, const CompanionFlow& flow,
              const ProgressCallback& progress)
       : scene_(scene), problem_(problem), flow_(flow), progress_(progress) {}
 
@@ -208,7 +208,7 @@ class PlanSearch {
 
   const Scene& scene_;
   const ComputedProblem& problem_;
-  const LinearFlow& flow_;
+  const CompanionFlow& flow_;
   const ProgressCallback& progress_;
   std::vector<std::optional<LinearImpulses>> coarse_;  ///< for each of the times
   double linear_m_s_ = 0;                              ///< sum of the linear theory's plan
@@ -219,7 +219,7 @@ class PlanSearch {
 }  // namespace
 
 OptimalImpulses optimal_impulses(const Scene& scene, const ComputedProblem& problem,
-                                 const LinearFlow& flow, const TransferResult& others,
+                                 const CompanionFlow& flow, const TransferResult& others,
                                  const ProgressCallback& progress) {
   return PlanSearch(scene, problem, flow, progress).run(others);
 }

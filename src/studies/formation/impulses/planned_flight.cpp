@@ -20,7 +20,7 @@ std::vector<double> PlannedTransfer::start_state() const {
   return state_sum(problem_.nominal, start_);
 }
 
-/// The final deviation from the chief of a deputy that flies the impulses.
+/// The final deviation from the orbit of a deputy that flies the impulses.
 std::vector<double> PlannedTransfer::fly(const TimedImpulses& impulses, const OnLeg& on_leg) const {
   std::vector<double> state = start_state();
   double now = 0;
@@ -37,7 +37,7 @@ std::vector<double> PlannedTransfer::fly(const TimedImpulses& impulses, const On
     }
   }
   fly_to(duration_);
-  return state_difference(std::move(state), chief_end_);
+  return state_difference(std::move(state), orbit_end_);
 }
 
 FlownImpulses PlannedTransfer::corrected(const LinearImpulses& impulses) const {
@@ -147,7 +147,7 @@ double PlannedTransfer::flight_floor_m(const TimedImpulses& impulses) const {
     const Eigen::Matrix<double, 6, 6> rest = whole * symplectic_inverse(flow_.at(time));
     return rest.norm() * position_of(flow_.nominal(time)).norm();
   };
-  double sum = carried(0) + position_of(chief_end_).norm();
+  double sum = carried(0) + position_of(orbit_end_).norm();
   for (const double time : impulses.times) {
     if (time != 0 && time != duration_) sum += 2 * carried(time);
   }
@@ -163,7 +163,7 @@ std::string PlannedTransfer::forbidden_by_limits(const TimedImpulses& impulses) 
   }
   WayLimits limits(scene_);
   fly(impulses, [&](double time, double duration, const std::vector<double>& state) {
-    const std::vector<double> chief = flow_.nominal(time);
+    const std::vector<double> chief = flow_.chief(time);
     limits.fly(chief, state_difference(state, chief), problem_.start_time + time, duration);
   });
   return limits.forbidden();

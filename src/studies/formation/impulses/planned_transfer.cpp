@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "../../../algebra/state_sums.hpp"
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../nominal/nominal_period.hpp"
 #include "../single_transfer.hpp"
@@ -73,16 +74,18 @@ TimedImpulses with_one_for_two(TimedImpulses impulses, std::size_t k) {
 }  // namespace
 
 PlannedTransfer::PlannedTransfer(const Scene& scene, const ComputedProblem& problem,
-                                 const LinearFlow& flow, double duration)
+                                 const CompanionFlow& flow, double duration)
     : scene_(scene),
       problem_(problem),
       flow_(flow),
       duration_(duration),
       units_(metric_units(scene)),
       momentum_unit_(std::ldexp(1.0, problem.momentum_exponent)),
-      chief_end_(flow.nominal(duration)),
+      orbit_end_(flow.nominal(duration)),
       start_(frame(problem.nominal).deviation(scene.transfer->start)),
-      end_(scene.transfer->end.deviation(chief_end_, units_, scene.transfer->frame)) {
+      end_(state_sum(
+          scene.transfer->end.deviation(flow.chief(duration), units_, scene.transfer->frame),
+          flow.chief_deviation(duration))) {
   const std::optional<double>& limit = scene.transfer->largest_impulse_m_s;
   if (limit) most_ = *limit / metres_per_second(1);
   const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
@@ -109,7 +112,7 @@ TimedImpulses PlannedTransfer::in_flow_units(const std::vector<Impulse>& impulse
   for (const Impulse& impulse : impulses) {
     if (impulse.change_m_s.isZero(0)) continue;
     const std::vector<double> deviation =
-        frame(flow_.nominal(impulse.time)).deviation({Eigen::Vector3d::Zero(), impulse.change_m_s});
+        frame(flow_.chief(impulse.time)).deviation({Eigen::Vector3d::Zero(), impulse.change_m_s});
     timed.times.push_back(impulse.time);
     timed.changes.push_back(momentum_of(deviation) / momentum_unit_);
   }
@@ -239,7 +242,7 @@ ImpulsePlan PlannedTransfer::plan(const FlownImpulses& given) const {
   for (std::size_t k = 0; k < flown.impulses.times.size(); ++k) {
     const double time = flown.impulses.times[k];
     const Eigen::Vector3d canonical = flown.impulses.changes[k] * momentum_unit_;
-    plan.impulses.push_back({time, frame(flow_.nominal(time)).velocity_change_m_s(canonical)});
+    plan.impulses.push_back({time, frame(flow_.chief(time)).velocity_change_m_s(canonical)});
   }
   return plan;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "../companion_flow.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "impulse_search.hpp"
@@ -31,7 +32,7 @@ struct FlownImpulses {
 /// impulses. All arguments of the constructor must outlive it.
 class PlannedTransfer {
  public:
-  PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const LinearFlow& flow,
+  PlannedTransfer(const Scene& scene, const ComputedProblem& problem, const CompanionFlow& flow,
                   double duration);
 
   /// Converts a sum of impulses' magnitudes to m/s.
@@ -96,13 +97,13 @@ class PlannedTransfer {
 
   const Scene& scene_;
   const ComputedProblem& problem_;
-  const LinearFlow& flow_;
+  const CompanionFlow& flow_;
   double duration_;
   MetricUnits units_;
   double momentum_unit_;
-  std::vector<double> chief_end_;
-  std::vector<double> start_;  ///< canonical (dq, dp)
-  std::vector<double> end_;
+  std::vector<double> orbit_end_;
+  std::vector<double> start_;                              ///< canonical (dq, dp)
+  std::vector<double> end_;                                ///< from the orbit of the flow
   double most_ = std::numeric_limits<double>::infinity();  ///< largest allowed impulse
   double gap_ = 0;  ///< time between impulses that the limit divides, in canonical units
 };

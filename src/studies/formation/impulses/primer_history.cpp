@@ -29,7 +29,7 @@ std::optional<PrimerHistory> primer_between(const ImpulseGrid& grid, const Eigen
 }
 
 std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedProblem& problem,
-                                            const LinearFlow& flow, const TransferPoint& point) {
+                                            const CompanionFlow& flow, const TransferPoint& point) {
   const MetricUnits units = metric_units(scene);
   const TransferAnswer& answer = point.best();
   if (answer.start_change_m_s.isZero(0) || answer.end_change_m_s.isZero(0)) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<PrimerHistory> primer_history(const Scene& scene, const ComputedPr
   };
   return primer_between(impulse_grid(flow, point.time),
                         direction(problem.nominal, answer.start_change_m_s),
-                        direction(flow.nominal(point.time), answer.end_change_m_s));
+                        direction(flow.chief(point.time), answer.end_change_m_s));
 }
 
 }  // namespace hamjet

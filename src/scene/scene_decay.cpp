@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "../studies/checks/decay.hpp"
+#include "../text/scene_message.hpp"
+#include "scene_sections.hpp"
+
+namespace hamjet::io {
+
+std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene& scene) {
+  constexpr double least_height_km = 150;
+  std::vector<std::string> warnings;
+  const auto add = [&](std::string_view table, const std::string& what) {
+    warnings.push_back(fmt::format("{}{}: {}", warning_head, root.table(table).head(""), what));
+  };
+  bool has_decayed = false;
+  for (const Decay& decay : find_decays(scene)) {
+    const bool is_chief = decay.spacecraft == "chief";
+    has_decayed = has_decayed || is_chief;
+    add(is_chief ? "nominal" : "deputy",
+        fmt::format("the {} decays, got one that is down to {:.6g} km {:.3g} h after its start "
+                    "(t = {:.6g} s), should be a higher orbit, less drag, or times up to {} s",
+                    decay.spacecraft, decay.height_km, decay.time_s / 3600, decay.time_s,
+                    std::floor(decay.time_s)));
+  }
+  const auto perigee = perigee_height_km(scene, scene.nominal);
+  if (perigee && *perigee<least_height_km&& * perigee> 0 && !has_decayed) {
+    add("nominal", fmt::format("low, got a perigee {:.4g} km high, should be above {} km: {}",
+                               *perigee, least_height_km,
+                               scene.system.earth->atmosphere
+                                   ? "the air ends such orbits within days"
+                                   : "the air, which this scene is without, ends such orbits "
+                                     "within days"));
+  }
+  return warnings;
+}
+
+}  // namespace hamjet::io
