@@ -69,6 +69,7 @@ TableDescription flow_jet_top() {
                        "what air and light do to the chief"),
         optional_table("deputy", deputy_table(), none, "of `hamjet motion`, `transfer` and `eval`"),
         optional_table("transfer", transfer_table(), none, "of `hamjet transfer` and `assign`"),
+        optional_table("thruster", thruster_table(), none, "of `hamjet transfer`"),
         optional_table("validity", validity_table(), none, "of `hamjet validity` and `transfer`"),
         optional_table("assignment", assignment_table(), none, "of `hamjet assign`"),
         optional_table("uncertainty", uncertainty_table(), none, "of `hamjet uncertainty`"),
