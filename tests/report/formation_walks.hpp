@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../../src/report/formation/assignment_tables.hpp"
+#include "../../src/report/formation/burn_view.hpp"
 #include "../../src/report/formation/deputy_motion_report.hpp"
 #include "../../src/report/formation/thrust_view.hpp"
 #include "../../src/report/formation/transfer_tables.hpp"
@@ -101,7 +102,7 @@ inline TransferResult whole_transfer() {
   thrust.exceeds_thrust = true;
   thrust.start_thrust_m_s2 = {0.01, 0.02, 0.03};
   thrust.end_thrust_m_s2 = {0.04, 0.05, -0.06};
-  result.thrust = {2, {thrust}, 0, {{0, {0.01, 0.02, 0.02}}, {5, {0.02, 0.03, -0.06}}}, ""};
+  result.thrust = {2, {thrust}, 0, {{0, {1, 2, 2}}, {5, {2, 3, -6}}}, ""};
   BurnPlan burns;
   burns.duration = 4;
   burns.impulses_m_s = 7;
@@ -264,8 +265,8 @@ inline std::vector<Walk> transfer_walks() {
            report,
            {1},
            {{"time_s", {"s", 5 * sample_unit_s}},
-            {"thrust_m_s2", {"m/s^2", {0.02, 0.03, -0.06}}},
-            {"magnitude_m_s2", {"m/s^2", 0.07}}}},
+            {"thrust_m_s2", {"m/s^2", {2, 3, -6}}},
+            {"magnitude_m_s2", {"m/s^2", 7}}}},
           {burns_table(result),
            report,
            {1, 2},

@@ -62,7 +62,9 @@ inline Place place_of(const std::string& table, std::string_view owner) {
           "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}, "
           "collision={radius_m=5}, safety={keep_apart_m=5, keep_out_m=[1, 1, 1], "
           "deputy=[{position_m=[0, 200, 0]}]}}"}}}},
-      {"thruster", {"transfer-burns"}},
+      {"thruster",
+       {orbit_file,
+        {{"thruster", "{thrust_N=1, mass_kg=100, specific_impulse_s=220, propellant_kg=2}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",
