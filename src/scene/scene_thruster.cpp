@@ -44,8 +44,8 @@ ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
     settings.exhaust_m_s = table.positive_number("specific_impulse_s") * standard_gravity;
     if (!std::isfinite(settings.acceleration_m_s2) || settings.acceleration_m_s2 == 0 ||
         !std::isfinite(*settings.exhaust_m_s)) {
-      table.fail("thrust_N", fmt::format("out of range, got an acceleration of {} m/s^2 and an "
-                                         "exhaust of {} m/s, must be within binary64",
+      table.fail("thrust_N", fmt::format("out of range, got an acceleration of {:.6g} m/s^2 and an "
+                                         "exhaust of {:.6g} m/s, must be within binary64",
                                          settings.acceleration_m_s2, *settings.exhaust_m_s));
     }
   } else {
@@ -76,7 +76,10 @@ ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
     table.fail("", "of no use without impulses, got no table [transfer], must be beside one");
   }
   if (scene.transfer->times.back() < 0) {
-    table.fail("", "transfer times before the start, must be after it with a thruster");
+    table.fail("",
+               fmt::format("transfer times before the start, got {:.6g} s, must be after it with "
+                           "a thruster",
+                           scene.transfer->times.back() * scene.units.time_s));
   }
   return settings;
 }
