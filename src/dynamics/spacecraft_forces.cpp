@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hamjet/error.hpp"
+#include "orbit_axes.hpp"
 #include "turned_vectors.hpp"
 
 namespace hamjet {
@@ -36,17 +37,7 @@ Expression SpacecraftCoefficient::in(std::span<const Expression> inputs,
 DynamicalSystem with_thrust(const DynamicalSystem& system, const OrbitThrust& thrust) {
   return with_force(system, [&](std::span<const Expression> z) {
     const auto q = z.first(3), p = z.subspan(3, 3);
-    const auto cross = [](std::span<const Expression> a, std::span<const Expression> b) {
-      return ExpressionVector{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                              a[0] * b[1] - a[1] * b[0]};
-    };
-    const auto unit = [](const ExpressionVector& v) {
-      const Expression inverse = pow(dot(v, v), Expression(-0.5));
-      return ExpressionVector{v[0] * inverse, v[1] * inverse, v[2] * inverse};
-    };
-    const ExpressionVector radial = unit({q[0], q[1], q[2]});
-    const ExpressionVector normal = unit(cross(q, p));
-    const std::array<ExpressionVector, 3> axes = {radial, cross(normal, radial), normal};
+    const std::array<ExpressionVector, 3> axes = orbit_axes(q, p);
     std::vector<Expression> force(3, Expression(0));
     for (std::size_t k = 0; k < 3; ++k) {
       const Expression size = thrust.along[k].in(z, 3) * Expression(thrust.unit);

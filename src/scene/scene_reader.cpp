@@ -138,6 +138,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
+  read_table("thruster", [&](const auto& table) { scene.thruster = read_thruster(table, scene); });
   for (std::string& warning : likely_slips_of_deputies(root, scene)) {
     scene.warnings.push_back(std::move(warning));
   }

@@ -228,6 +228,9 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends);
 
+/// Table `[thruster]` of a scene whose table `[transfer]` has been read, if it has one.
+ThrusterSettings read_thruster(const TableReader& thruster, const Scene& scene);
+
 /// Table `[validity]`, checked against the parts of `scene` that have been read.
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
                                const Nominal& nominal);

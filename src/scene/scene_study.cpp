@@ -80,6 +80,7 @@ TableDescription flow_jet_top() {
                        "the second spacecraft, for `hamjet motion`, `transfer` and `eval`"),
         optional_table("transfer", transfer_table(), none,
                        "what `hamjet transfer` and `assign` work on"),
+        optional_table("thruster", thruster_table(), none, "what burns in `hamjet transfer`"),
         optional_table("validity", validity_table(), none,
                        "what `hamjet validity` works on, and `transfer` too"),
         optional_table("assignment", assignment_table(), none, "what `hamjet assign` works on"),

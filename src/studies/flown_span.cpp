@@ -14,6 +14,12 @@ FlownSpan flown_span(const Scene& scene) {
   reach(scene.duration);
   for (const double time : scene.relative_hamiltonian_times) reach(time);
   if (scene.transfer) reach(last_arrival(*scene.transfer));
+  if (scene.transfer && scene.thruster) {
+    // Half of a burn is before the first impulse, or after the last: no burn takes twice as long as
+    // its transfer.
+    reach(-scene.transfer->times.back());
+    reach(2 * scene.transfer->times.back());
+  }
   if (scene.validity) reach(scene.validity->times.back());
   if (const auto& uncertainty = scene.uncertainty) {
     if (!uncertainty->times.empty()) reach(uncertainty->times.back());

@@ -121,8 +121,9 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
                start_time, duration, order, arcs, symmetry, coordinates, variables, jet_times,
                integrators, separation, kinds, reference, relative_hamiltonian_times, checks,
-               comparison, figure, deputy, transfer, validity, assignment, uncertainty, bounded,
-               event, periodic, output, ephemeris, nominal_file, warnings, own_system] = scene;
+               comparison, figure, deputy, transfer, thruster, validity, assignment, uncertainty,
+               bounded, event, periodic, output, ephemeris, nominal_file, warnings, own_system] =
+      scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of the data that are kept under it
   key.add("reference stages", reference_stages);

@@ -125,6 +125,55 @@ TEST(CostateSystem, FlowAboutTheChiefIsSymplectic) {
   }
 }
 
+// The equation of Hamilton and Jacobi (that of Hamilton, Jacobi and Bellman for minus the least
+// energy): dF1/dT + H = 0, which for ends as deviations from the chief c is
+// dF1/dT + lambda . (f(x) - f(c)) - |lambda_v|^2 / 2 = 0 with lambda = dF1/dx at the end. With F1
+// to degree k + 1 what is left is of degree k + 2.
+TEST(CostateSystem, LeastEnergySolvesHamiltonJacobiByDegree) {
+  constexpr double time = 2;
+  constexpr double step = 5e-3;
+  const DynamicalSystem system = kepler();
+  const std::vector<double> start = {1, 0, 0, 0, 0.57, 0.98};
+  std::vector<double> chief;
+  std::vector<Series<double>> costs;  // at times -2, -1, 1, 2 steps away, and at the time itself
+  for (const int steps : {-2, -1, 1, 2, 0}) {
+    const FlowJet<double> jet = jet_of(system, start, 3, time + steps * step);
+    costs.push_back(generating_function(one_form(invert_partially(jet, parse_kind("F1", 6)))));
+    chief.clear();
+    for (std::size_t i = 0; i < 6; ++i) chief.push_back(jet[i][0]);
+  }
+  const auto field = [](const std::vector<double>& z) {
+    const double r = std::hypot(z[0], z[1], z[2]);
+    Vector6 f;
+    f << z[3], z[4], z[5], -z[0] / (r * r * r), -z[1] / (r * r * r), -z[2] / (r * r * r);
+    return f;
+  };
+  const auto residual = [&](double size, int order) {
+    const std::vector<double> ends = {0.3 * size, -0.2 * size, 0.1 * size, 0.1 * size,
+                                      0.2 * size, -0.1 * size, 0.5 * size, -0.6 * size,
+                                      0.3 * size, 0.2 * size,  0.1 * size, -0.4 * size};
+    MonomialValues values(costs[0].space_pointer());
+    values.set_point(ends);
+    std::vector<double> cost;
+    for (const Series<double>& one : costs) cost.push_back(values.value(one, order + 1));
+    const double rate = (cost[0] - 8 * cost[1] + 8 * cost[2] - cost[3]) / (12 * step);
+    Vector6 costates;
+    std::vector<double> end = chief;
+    for (std::size_t i = 0; i < 6; ++i) {
+      costates[static_cast<Eigen::Index>(i)] = values.derivative(costs[4], i, order + 1);
+      end[i] += ends[i];
+    }
+    return std::abs(rate + costates.dot(field(end) - field(chief)) -
+                    costates.tail<3>().squaredNorm() / 2) /
+           std::abs(cost[4]);
+  };
+  for (int order = 1; order <= 3; ++order) {
+    EXPECT_NEAR(std::log2(residual(0.04, order) / residual(0.02, order)), order, 0.3) << order;
+    if (order > 1) EXPECT_LT(residual(0.02, order), 0.1 * residual(0.02, order - 1)) << order;
+  }
+  EXPECT_LT(residual(0.02, 3), 1e-4);
+}
+
 TEST(CostateSystem, RefusesParameters) {
   DynamicalSystem system = clohessy_wiltshire();
   system.parameters = 1;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../../src/report/formation/assignment_tables.hpp"
+#include "../../src/report/formation/burn_view.hpp"
 #include "../../src/report/formation/deputy_motion_report.hpp"
 #include "../../src/report/formation/thrust_view.hpp"
 #include "../../src/report/formation/transfer_tables.hpp"
@@ -101,7 +102,22 @@ inline TransferResult whole_transfer() {
   thrust.exceeds_thrust = true;
   thrust.start_thrust_m_s2 = {0.01, 0.02, 0.03};
   thrust.end_thrust_m_s2 = {0.04, 0.05, -0.06};
-  result.thrust = {2, {thrust}, 0, ""};
+  result.thrust = {2, {thrust}, 0, {{0, {1, 2, 2}}, {5, {2, 3, -6}}}, ""};
+  BurnPlan burns;
+  burns.duration = 4;
+  burns.impulses_m_s = 7;
+  burns.burns = {{0, -0.5, 0.75, {0.6, 0, 0.8}, 3.25, 3, 1.5, 98.5},
+                 {4, 3.5, 4.25, {0, 1, 0}, 4.5, 4, 2, 96.5}};
+  burns.flights = 5;
+  burns.miss_m = 1e-4;
+  burns.velocity_miss_m_s = 1e-7;
+  burns.least_acceleration_m_s2 = 0.125;
+  BurnPlan none;
+  none.is_optimal = true;
+  none.duration = 6;
+  none.impulses_m_s = 8;
+  none.failure = "too weak";
+  result.burns = {{burns, none}, 0, ""};
   return result;
 }
 
@@ -244,7 +260,39 @@ inline std::vector<Walk> transfer_walks() {
             {"refined_velocity_miss_m_s", {"m/s", 2e-6}},
             {"costates", {"", {1, 2, 3, 4, 5, 6}}},
             {"refinement_flights", {"", 3}},
-            {"failure", {"", nullptr}}}}};
+            {"failure", {"", nullptr}}}},
+          {thrust_profile_table(result),
+           report,
+           {1},
+           {{"time_s", {"s", 5 * sample_unit_s}},
+            {"thrust_m_s2", {"m/s^2", {2, 3, -6}}},
+            {"magnitude_m_s2", {"m/s^2", 7}}}},
+          {burns_table(result),
+           report,
+           {1, 2},
+           {{"impulses", {"", "two", {"optimal"}}},
+            {"transfer_time_s", {"s", 4 * sample_unit_s, {6 * sample_unit_s}}},
+            {"burn", {"", 2, {null}}},
+            {"impulse_time_s", {"s", 4 * sample_unit_s, {null}}},
+            {"start_s", {"s", 3.5 * sample_unit_s, {null}}},
+            {"end_s", {"s", 4.25 * sample_unit_s, {null}}},
+            {"length_s", {"s", 0.75 * sample_unit_s, {null}}},
+            {"direction", {"", {0, 1, 0}, {null}}},
+            {"change_m_s", {"m/s", 4.5, {null}}},
+            {"impulse_m_s", {"m/s", 4, {null}}},
+            {"gravity_loss_m_s", {"m/s", 0.5, {null}}},
+            {"propellant_kg", {"kg", 2, {null}}},
+            {"mass_after_kg", {"kg", 96.5, {null}}},
+            {"total_change_m_s", {"m/s", 7.75, {null}}},
+            {"total_impulses_m_s", {"m/s", 7, {8}}},
+            {"miss_m", {"m", 1e-4, {null}}},
+            {"velocity_miss_m_s", {"m/s", 1e-7, {null}}},
+            {"flights", {"", 5, {0}}},
+            {"least_acceleration_m_s2", {"m/s^2", 0.125, {null}}},
+            {"failure", {"", nullptr, {"too weak"}}},
+            {"least_change_m_s", {"m/s", 7.75}},
+            {"least_transfer_time_s", {"s", 4 * sample_unit_s}},
+            {"shortest_transfer_time_s", {"s", 4 * sample_unit_s}}}}};
 }
 
 inline Walk motion_walk() {

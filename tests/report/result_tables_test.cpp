@@ -40,6 +40,7 @@ std::string unit_of_name(const std::string& name) {
       {"_m", "m"},
       {"_s", "s"},
       {"_km", "km"},
+      {"_kg", "kg"},
       {"_deg", "deg"},
       {"_m_s_a_day", "m/s a day"},
       {"_m_per_revolution", "m a revolution"},

@@ -62,6 +62,9 @@ inline Place place_of(const std::string& table, std::string_view owner) {
           "burn={velocity_change_m_s=[1, 0, 0], magnitude=0.1, direction_deg=1}, "
           "collision={radius_m=5}, safety={keep_apart_m=5, keep_out_m=[1, 1, 1], "
           "deputy=[{position_m=[0, 200, 0]}]}}"}}}},
+      {"thruster",
+       {orbit_file,
+        {{"thruster", "{thrust_N=1, mass_kg=100, specific_impulse_s=220, propellant_kg=2}"}}}},
       {"ephemeris",
        {orbit_file,
         {{"ephemeris",
@@ -143,6 +146,8 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
   static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
   static const Override lasting_thrust = {"transfer.thrust", "\"energy-optimal\""};
+  static const Override no_thruster = {"thruster", "null"};
+  static const Override weak_thruster = {"thruster", "{acceleration_m_s2 = 1e-3}"};
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
   static const Override vector_field = {
       "system", "{model=\"own\", states=[\"x\", \"v\"], vector_field={x=\"v\", v=\"-x\"}}"};
@@ -274,6 +279,8 @@ inline const std::map<std::string, Place>& special_places() {
       {"transfer.times_canonical", {"", {no_count}}},
       {"transfer.thrust_order", {"", {lasting_thrust}}},
       {"transfer.largest_thrust_m_s2", {"", {lasting_thrust}}},
+      {"thruster.acceleration_m_s2", {"", {no_thruster, weak_thruster}}},
+      {"thruster.mass_kg", {"", {}, "50"}},
       {"transfer.waypoint.0.time_s", {"", {waypoint}, "100"}},
       {"transfer.waypoint.0.time_orbits", {"", {waypoint, no_time}, "0.5"}},
       {"transfer.waypoint.0.time_canonical", {"", {waypoint, no_time}, "0.5"}},

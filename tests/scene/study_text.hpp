@@ -69,6 +69,10 @@ class StudyText {
             s.singular_margin, s.strict, s.impulse_gap, s.longest_coast, s.revolutions,
             s.waypoints);
   }
+  void add(const ThrusterSettings& s) {
+    add_all(s.acceleration_m_s2, s.exhaust_m_s, s.mass_kg, s.propellant_kg, s.longest_burn_s,
+            s.shortest_burn_s, s.attitude);
+  }
   void add(const DeputySettings& s) { add_all(s.frame, s.start); }
   void add(const ValiditySettings& s) {
     add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
@@ -116,7 +120,7 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.periodic,
+            s.thruster, s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.periodic,
             s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }

@@ -2,83 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
-#include "formation_scenes.hpp"
+#include "energy_optimal_flights.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 namespace hamjet {
 namespace {
 
-using Numbers = std::array<long double, 13>;  // q, v, their costates, and the energy so far
-
-/// The paper's orbit and a deputy that comes from `separation_m` to rest beside the chief.
-Scene thrust_scene(double separation_m, std::vector<double> times) {
-  Scene scene = kepler_chief(0.3, 7000, std::sqrt(7000.0 * 7000 * 7000 / 398600.4405), 2);
-  scene.nominal = {1, 0, 0, 0, 0.57, 0.98};
-  TransferSettings settings;
-  settings.start.position_m = Eigen::Vector3d(0.6, -0.7, 0.4).normalized() * separation_m;
-  settings.start.velocity_m_s = Eigen::Vector3d(0.2, 0.1, -0.3) * (separation_m / 1000);
-  settings.end.position_m = {0, 50, 0};
-  settings.times = std::move(times);
-  settings.thrust = TransferThrust::energy_optimal;
-  settings.refined_miss_m = 1e-4;
-  scene.transfer = settings;
-  return scene;
-}
-
-/// Kepler's problem under u = -lambda_v, by hand: with g = -q/r^3, q'' = g + u, lambda_q' =
-/// -(dg/dq) lambda_v, lambda_v' = -lambda_q, where (dg/dq) a = -a/r^3 + 3 q (q.a)/r^5.
-Numbers derivative(const Numbers& z) {
-  Numbers d{};
-  const long double r2 = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
-  const long double r3 = r2 * std::sqrt(r2);
-  const long double along = z[0] * z[9] + z[1] * z[10] + z[2] * z[11];
-  for (std::size_t i = 0; i < 3; ++i) {
-    d[i] = z[3 + i];
-    d[3 + i] = -z[i] / r3 - z[9 + i];
-    d[6 + i] = z[9 + i] / r3 - 3 * z[i] * along / (r2 * r3);
-    d[9 + i] = -z[6 + i];
-    d[12] += z[9 + i] * z[9 + i] / 2;
-  }
-  return d;
-}
-
-/// The classical Runge-Kutta method in long double, which is right to 1e-13 with these steps.
-Numbers flown(Numbers z, long double time) {
-  constexpr int steps = 20000;
-  const long double h = time / steps;
-  const auto moved = [](const Numbers& a, const Numbers& b, long double factor) {
-    Numbers sum = a;
-    for (std::size_t i = 0; i < a.size(); ++i) sum[i] += factor * b[i];
-    return sum;
-  };
-  for (int k = 0; k < steps; ++k) {
-    const Numbers k1 = derivative(z);
-    const Numbers k2 = derivative(moved(z, k1, h / 2));
-    const Numbers k3 = derivative(moved(z, k2, h / 2));
-    const Numbers k4 = derivative(moved(z, k3, h));
-    for (std::size_t i = 0; i < z.size(); ++i) {
-      z[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-    }
-  }
-  return z;
-}
-
-Numbers start_of(const Scene& scene, const RelativeState& relative,
-                 const std::vector<double>& costates) {
-  const MetricUnits units{scene.units.length_km * 1000, scene.units.time_s};
-  const std::vector<double> deviation =
-      ChiefFrame(scene.nominal, units, scene.transfer->frame).deviation(relative);
-  Numbers z{};
-  for (std::size_t i = 0; i < 6; ++i) {
-    z[i] = static_cast<long double>(scene.nominal[i]) + deviation[i];
-    z[6 + i] = costates[i];
-  }
-  return z;
-}
+using namespace thrusted;
 
 // A program of the test's own flies the costates from the start to the end that the scene wants,
 // and finds the same energy.
@@ -87,25 +20,19 @@ TEST(EnergyOptimal, CostatesLeadToTheEndInAnotherProgram) {
   const TransferResult result = study_transfer(scene);
   ASSERT_TRUE(result.thrust);
   ASSERT_EQ(result.thrust->transfers.size(), 2U);
-  const MetricUnits units{scene.units.length_km * 1000, scene.units.time_s};
+  const MetricUnits units = units_of(scene);
   for (const EnergyOptimalTransfer& transfer : result.thrust->transfers) {
     ASSERT_TRUE(transfer.is_found()) << transfer.failure;
     const Numbers deputy =
         flown(start_of(scene, scene.transfer->start, transfer.refined->costates), transfer.time);
-    const Numbers chief =
-        flown(start_of(scene, RelativeState(), std::vector<double>(6)), transfer.time);
-    std::vector<double> chief_end;
-    for (std::size_t i = 0; i < 6; ++i) chief_end.push_back(static_cast<double>(chief[i]));
-    const std::vector<double> wanted =
-        scene.transfer->end.deviation(chief_end, units, scene.transfer->frame);
+    const Numbers wanted = wanted_end(scene, transfer.time);
     double miss_m = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      miss_m = std::hypot(miss_m, static_cast<double>(deputy[i] - chief[i] - wanted[i]));
+      miss_m = std::hypot(miss_m, static_cast<double>(deputy[i] - wanted[i]));
     }
     // Both flights are right to some 1e-7 m, and the thrust was corrected to 1e-4 m.
     EXPECT_LT(miss_m * units.length_m, 2e-4);
-    const double unit = units.velocity_m_s() * units.velocity_m_s() / units.time_s;
-    const double energy = static_cast<double>(deputy[12]) * unit;
+    const double energy = static_cast<double>(deputy[12]) * energy_unit(scene);
     EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-9 * energy);
     // Schwarz's inequality: (integral of |u|)^2 <= 2 T integral of |u|^2 / 2.
     EXPECT_LT(transfer.change_m_s * transfer.change_m_s,
@@ -141,8 +68,8 @@ TEST(EnergyOptimal, CostatesAreTheGradientOfTheEnergy) {
   const Scene scene = thrust_scene(10e3, {3.0});
   const EnergyOptimalTransfer middle = study_transfer(scene).thrust->transfers.front();
   ASSERT_TRUE(middle.is_found()) << middle.failure;
-  const MetricUnits units{scene.units.length_km * 1000, scene.units.time_s};
-  const double unit = units.velocity_m_s() * units.velocity_m_s() / units.time_s;
+  const MetricUnits units = units_of(scene);
+  const double unit = energy_unit(scene);
   const Eigen::Vector3d direction = Eigen::Vector3d(1, 2, -1).normalized();
   std::vector<double> energies;
   constexpr double step_m = 100;
@@ -164,6 +91,41 @@ TEST(EnergyOptimal, CostatesAreTheGradientOfTheEnergy) {
   // The energy is nearly quadratic, for which a central difference is exact; its cubic part is that
   // of a separation of 10 km in 7000.
   EXPECT_NEAR((energies[0] - energies[1]) / 2, expected, 1e-4 * std::abs(expected));
+}
+
+// The thrust along the way begins and ends as it is told to, is that of the costates that the test
+// flies in between, and its integral by Simpson's rule is the change.
+TEST(EnergyOptimal, ProfileIsThatOfTheCostates) {
+  const Scene scene = thrust_scene(10e3, {2.0, 5.0});
+  const TransferResult result = study_transfer(scene);
+  ASSERT_TRUE(result.thrust && result.thrust->least);
+  const EnergyOptimalTransfer& least = result.thrust->transfers[*result.thrust->least];
+  const std::vector<ThrustSample>& profile = result.thrust->profile;
+  ASSERT_GE(profile.size(), 49U);
+  ASSERT_EQ(profile.size() % 2, 1U);
+  EXPECT_EQ(profile.front().time, 0);
+  EXPECT_EQ(profile.back().time, least.time);
+  const double size = least.largest_m_s2;
+  EXPECT_LT((profile.front().thrust_m_s2 - least.start_thrust_m_s2).norm(), 1e-12 * size);
+  EXPECT_LT((profile.back().thrust_m_s2 - least.end_thrust_m_s2).norm(), 1e-9 * size);
+  const MetricUnits units = units_of(scene);
+  const std::size_t middle = profile.size() / 2;
+  const Numbers deputy =
+      flown(start_of(scene, scene.transfer->start, least.refined->costates), profile[middle].time);
+  const Numbers chief =
+      flown(start_of(scene, RelativeState(), std::vector<double>(6)), profile[middle].time);
+  const Eigen::Vector3d thrust(static_cast<double>(-deputy[9]), static_cast<double>(-deputy[10]),
+                               static_cast<double>(-deputy[11]));
+  const ChiefFrame frame(state_of(chief), units, scene.transfer->frame);
+  const Eigen::Vector3d along = frame.along_axes(thrust) * (units.velocity_m_s() / units.time_s);
+  EXPECT_LT((profile[middle].thrust_m_s2 - along).norm(), 1e-8 * size);
+  double change = 0;
+  for (std::size_t k = 0; k < profile.size(); ++k) {
+    const bool is_end = k == 0 || k + 1 == profile.size();
+    change += profile[k].thrust_m_s2.norm() * (is_end ? 1 : k % 2 == 1 ? 4 : 2);
+  }
+  change *= least.time * units.time_s / static_cast<double>(profile.size() - 1) / 3;
+  EXPECT_NEAR(change, least.change_m_s, 1e-4 * change);
 }
 
 // A thruster that is too weak is told by how much.

@@ -157,6 +157,7 @@ struct Scene {
   std::optional<FigureSettings> figure;
   std::optional<DeputySettings> deputy;
   std::optional<TransferSettings> transfer;
+  std::optional<ThrusterSettings> thruster;  ///< absent if velocity changes are impulses alone
   std::optional<ValiditySettings> validity;
   std::optional<AssignmentSettings> assignment;
   std::optional<UncertaintySettings> uncertainty;

@@ -8,6 +8,7 @@
 
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/detail/studies/energy_optimal.hpp"
+#include "hamjet/detail/studies/finite_burns.hpp"
 #include "hamjet/detail/studies/impulse_plan.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/relative_drift.hpp"
@@ -109,6 +110,7 @@ struct TransferSeconds {
   double residual = 0;       ///< Hamilton-Jacobi residuals
   double impulses = 0;       ///< the primer vector and optimal impulses
   double thrust = 0;         ///< energy-optimal thrust
+  double burns = 0;          ///< burns in place of impulses
 
   /// Seconds for the answers, without their proof and residuals.
   double study() const { return propagation + singularities + inversion + solution; }
@@ -149,6 +151,7 @@ struct TransferResult {
   /// If the scene asks for other numbers of revolutions.
   std::optional<OtherRevolutions> revolutions;
   std::optional<EnergyOptimalTransfers> thrust;  ///< if the scene asks for energy-optimal thrust
+  std::optional<FiniteBurns> burns;              ///< if the scene has a thruster
   std::optional<ValidityResult> validity;        ///< if the scene has `[validity]`
   TransferSeconds seconds;
   /// Checks of the chief's flight; transfers have marks of their own.
@@ -181,10 +184,11 @@ TransferResult study_transfer(const Scene& scene, const ProgressCallback& progre
                               const EarlierJet* earlier = nullptr);
 
 /// Exit code: 0; 1 if a self-check failed, if the scene's limits allow none of the answers, if
-/// optimal impulses, a way through waypoints, a coasting start, other revolutions or a thrust that
-/// lasts were asked for and not found, if the solver of optimal impulses failed for a time, so that
-/// the least may be missing, or if the scene is strict and an answer away from singularities is
-/// missing, beyond its tolerance or could not be refined; 4 if no transfer time has an answer.
+/// optimal impulses, a way through waypoints, a coasting start, other revolutions a thrust that
+/// lasts or burns of a thruster were asked for and not found, if the solver of optimal impulses
+/// failed for a time, so that the least may be missing, or if the scene is strict and an answer
+/// away from singularities is missing, beyond its tolerance or could not be refined; 4 if no
+/// transfer time has an answer.
 int exit_code(const TransferResult& result);
 
 /// A flown deputy relative to its chief, along R, T, N in any frame of the scene (along the

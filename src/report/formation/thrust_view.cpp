@@ -9,6 +9,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
+#include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 #include "impulse_view.hpp"
 #include "transfer_view.hpp"
@@ -114,6 +115,60 @@ TableView energy_optimal_table(const TransferResult& result) {
   table.add("failure", "", "why there is none", &EnergyOptimalTransfer::failure);
   const auto rows = result.thrust ? result.thrust->transfers : std::vector<EnergyOptimalTransfer>();
   return std::move(table).view(rows, {rows.size()});
+}
+
+TableView thrust_profile_table(const TransferResult& result) {
+  const Scene& scene = result.scene;
+  const double unit = scene.units.time_s;
+  std::vector<std::string> parts;
+  for (const std::string_view axis : axis_columns(scene.transfer->frame)) {
+    parts.push_back(fmt::format("thrust_{}_m_s2", axis));
+  }
+  ResultTable<ThrustSample> table(
+      "thrust_profile", "/energy_optimal_thrust", {"profile"},
+      "The thrust of least energy along the way of the transfer that takes the least change.");
+  table.add("time_s", "s", "since the start",
+            [=](const ThrustSample& sample) { return sample.time * unit; });
+  table.add_array("thrust_m_s2", std::move(parts), "m/s^2",
+                  "the acceleration, along the frame's axes then", &ThrustSample::thrust_m_s2);
+  table.add("magnitude_m_s2", "m/s^2", "its magnitude",
+            [](const ThrustSample& sample) { return sample.thrust_m_s2.norm(); });
+  const std::vector<ThrustSample> rows =
+      result.thrust ? result.thrust->profile : std::vector<ThrustSample>();
+  return std::move(table).view(rows, {rows.size()});
+}
+
+Chart thrust_chart(const TransferResult& result) {
+  Chart chart;
+  chart.name = "thrust-profile";
+  chart.title = "Thrust of least energy along the way";
+  const std::vector<ThrustSample>& profile = result.thrust->profile;
+  const TimeAxis axis = time_axis(seconds(result, profile.back().time));
+  chart.x.label = fmt::format("time since the start ({})", axis.name);
+  add_revolutions(result.scene, axis.seconds, chart.x);
+  chart.y.label = "acceleration (m/s^2)";
+  chart.y.includes = {0};
+  const auto add = [&](std::string title, std::size_t style, auto value) {
+    ChartCurve curve;
+    curve.title = std::move(title);
+    curve.style = style;
+    curve.has_markers = false;
+    for (const ThrustSample& sample : profile) {
+      curve.points.emplace_back(seconds(result, sample.time) / axis.seconds,
+                                value(sample.thrust_m_s2));
+    }
+    chart.curves.push_back(std::move(curve));
+  };
+  const auto letters = axis_letters(result.scene.transfer->frame);
+  for (std::size_t i = 0; i < 3; ++i) {
+    add(fmt::format("along {}", letters[i]), i,
+        [i](const Eigen::Vector3d& thrust) { return thrust[static_cast<Eigen::Index>(i)]; });
+  }
+  add("magnitude", 3, [](const Eigen::Vector3d& thrust) { return thrust.norm(); });
+  chart.reading =
+      "The acceleration of the transfer whose change is the least, as it was flown, along the axes "
+      "of the frame at that time, and its magnitude, whose integral is the change.";
+  return chart;
 }
 
 std::string thrust_failure(const TransferResult& result) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "../../store/result_table.hpp"
+#include "../drawing/chart.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 // What page, files and the terminal say about transfers with a thrust that lasts.
@@ -11,6 +12,11 @@ namespace hamjet::io {
 
 /// The energy-optimal transfers, one row a time; no rows where none were asked for.
 TableView energy_optimal_table(const TransferResult& result);
+
+/// The thrust along the way of the least of them, one row a time; no rows if there is none.
+TableView thrust_profile_table(const TransferResult& result);
+/// A picture of it.
+Chart thrust_chart(const TransferResult& result);
 
 /// What the least of them takes, or why there is none; empty where none were asked for.
 std::string thrust_verdict(const TransferResult& result);

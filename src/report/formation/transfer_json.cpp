@@ -16,15 +16,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json seconds_json(const TransferSeconds& seconds) {
-  return {{"propagation", seconds.propagation},
-          {"singularities", seconds.singularities},
-          {"inversion", seconds.inversion},
-          {"solution", seconds.solution},
-          {"study", seconds.study()},
-          {"proof", seconds.proof},
-          {"residual", seconds.residual},
-          {"impulses", seconds.impulses},
-          {"thrust", seconds.thrust}};
+  return {{"propagation", seconds.propagation}, {"singularities", seconds.singularities},
+          {"inversion", seconds.inversion},     {"solution", seconds.solution},
+          {"study", seconds.study()},           {"proof", seconds.proof},
+          {"residual", seconds.residual},       {"impulses", seconds.impulses},
+          {"thrust", seconds.thrust},           {"burns", seconds.burns}};
 }
 
 Json counts_json(const TransferCounts& counts) {
@@ -122,6 +118,8 @@ Json transfer_summary_json(const TransferResult& result) {
   json["other_revolutions"] = revolutions_json(result);
   json["energy_optimal_thrust"] =
       result.thrust ? table_json(energy_optimal_table(result)) : Json(nullptr);
+  if (result.thrust) json["energy_optimal_thrust"].update(table_json(thrust_profile_table(result)));
+  json["finite_burns"] = result.burns ? table_json(burns_table(result)) : Json(nullptr);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);
   json["position_singular_times"] = Json::array();

@@ -5,6 +5,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "burn_view.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
 #include "transfer_charts.hpp"
@@ -82,6 +83,11 @@ std::string trajectory_section(const TransferResult& result,
   return html + panels_html(charts, drawer) + "</section>\n";
 }
 
+std::string thrust_sections(const TransferResult& result, ChartDrawer& drawer) {
+  if (!result.thrust || result.thrust->profile.empty()) return thrust_section_html(result);
+  return thrust_section_html(result) + fitted_section(thrust_chart(result), drawer);
+}
+
 std::string impulse_sections(const TransferResult& result, ChartDrawer& drawer) {
   if (!result.primer && !result.optimal) return "";
   return impulse_table_html(result) + fitted_section(primer_chart(result), drawer);
@@ -103,9 +109,9 @@ std::string transfer_page(const TransferResult& result,
                   "</section>\n" + trajectory_section(result, trajectory, drawer) +
                   impulse_sections(result, drawer) + waypoint_section_html(result) +
                   coasting_section_html(result) + revolutions_section_html(result) +
-                  thrust_section_html(result) + fitted_section(miss_chart(result), drawer) +
-                  miss_table_html(result) + fitted_section(condition_chart(result), drawer) +
-                  singular_table_html(result);
+                  thrust_sections(result, drawer) + burns_section_html(result) +
+                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
+                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
   if (result.validity) {
     page.sections += fitted_section(validity_time_chart(*result.validity), drawer) +
                      validity_sections_html(*result.validity, drawer);

@@ -8,6 +8,7 @@
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
 #include "../study_checks.hpp"
+#include "burn_view.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
@@ -66,7 +67,7 @@ std::string terminal_table(const TransferResult& result) {
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
   text += impulse_lines(result) + waypoint_lines(result) + coasting_lines(result) +
-          revolutions_lines(result) + thrust_lines(result);
+          revolutions_lines(result) + thrust_lines(result) + burn_lines(result);
   const std::vector<MissStatistics> misses = miss_statistics(result);
   if (!misses.empty()) {
     text += "  misses           away from singularities, the median and the largest:\n";
@@ -118,6 +119,9 @@ StudyReport transfer_report(const TransferResult& result,
     report.files.push_back({"waypoints.csv", table_csv(waypoint_impulses_table(result))});
   if (result.thrust)
     report.files.push_back({"energy_optimal.csv", table_csv(energy_optimal_table(result))});
+  if (result.thrust)
+    report.files.push_back({"thrust_profile.csv", table_csv(thrust_profile_table(result))});
+  if (result.burns) report.files.push_back({"burns.csv", table_csv(burns_table(result))});
   if (result.validity)
     report.files.push_back({"validity.csv", table_csv(validity_table(*result.validity))});
   const OutputSettings& output = result.scene.output;

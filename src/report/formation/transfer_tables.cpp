@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "burn_view.hpp"
 #include "frame_columns.hpp"
 #include "thrust_view.hpp"
 #include "transfer_view.hpp"
@@ -372,11 +373,17 @@ TableView total_by_time_table(const TransferResult& result) {
 }
 
 std::vector<TableView> transfer_tables(const TransferResult& result) {
-  return {transfers_table(result),         singular_times_table(result),
-          conditions_table(result),        budget_windows_table(result),
-          optimal_impulses_table(result),  least_by_time_table(result),
-          waypoint_impulses_table(result), total_by_time_table(result),
-          energy_optimal_table(result)};
+  return {transfers_table(result),
+          singular_times_table(result),
+          conditions_table(result),
+          budget_windows_table(result),
+          optimal_impulses_table(result),
+          least_by_time_table(result),
+          waypoint_impulses_table(result),
+          total_by_time_table(result),
+          energy_optimal_table(result),
+          thrust_profile_table(result),
+          burns_table(result)};
 }
 
 }  // namespace hamjet::io

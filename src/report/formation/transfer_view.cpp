@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../../text/html_text.hpp"
+#include "burn_view.hpp"
 #include "drift_view.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_view.hpp"
@@ -245,7 +246,7 @@ std::string transfer_verdict(const TransferResult& result) {
   std::string further;
   for (const std::string& one :
        {optimal_impulses_verdict(result), waypoint_verdict(result), coasting_verdict(result),
-        revolutions_verdict(result), thrust_verdict(result)}) {
+        revolutions_verdict(result), thrust_verdict(result), burns_verdict(result)}) {
     if (!one.empty()) further += " " + one;
   }
   if (!best) {
@@ -305,6 +306,9 @@ std::string transfer_failure(const TransferResult& result) {
   }
   if (const std::string failure = thrust_failure(result); !failure.empty()) {
     return "energy-optimal thrust: " + failure;
+  }
+  if (const std::string failure = burns_failure(result); !failure.empty()) {
+    return "burns: " + failure;
   }
   const TransferCounts counts = count_points(result);
   const std::size_t forbidden = counts.over_impulse + counts.kept_out + counts.below_surface;

@@ -20,6 +20,7 @@ const Ending* ending_of(std::string_view name) {
                                      {"_rad_per_s", "rad/s"},
                                      {"_km", "km"},
                                      {"_kg", "kg"},
+                                     {"_N", "N"},
                                      {"_deg", "degrees"},
                                      {"_rad", "rad"},
                                      {"_m", "m"},

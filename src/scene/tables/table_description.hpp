@@ -153,6 +153,7 @@ const TableDescription& reference_table();
 const TableDescription& relative_hamiltonian_table();
 const TableDescription& spacecraft_table();
 const TableDescription& system_table();
+const TableDescription& thruster_table();
 const TableDescription& transfer_table();
 const TableDescription& collision_table();
 const TableDescription& safety_table();

@@ -92,6 +92,9 @@ class ThrustedFlight {
   /// Integrates the thrust along the flight with these costates, in `panels` parts.
   void measure(EnergyOptimalTransfer& transfer, int panels) const;
 
+  /// The thrust of a flight with these costates at the ends of `intervals` equal parts of it.
+  std::vector<ThrustSample> profile(const std::vector<double>& costates, int intervals) const;
+
  private:
   Eigen::Vector3d thrust(const std::vector<double>& z) const {
     return -Eigen::Vector3d(z[states + 3], z[states + 4], z[states + 5]) *
@@ -140,6 +143,25 @@ void ThrustedFlight::measure(EnergyOptimalTransfer& transfer, int panels) const 
   }
   fly_to(time_);
   transfer.end_thrust_m_s2 = along_frame(chief_end_, z);
+}
+
+std::vector<ThrustSample> ThrustedFlight::profile(const std::vector<double>& costates,
+                                                  int intervals) const {
+  std::vector<ThrustSample> samples;
+  std::vector<double> chief = problem_.nominal;
+  std::vector<double> z = deputy(costates);
+  double now = 0;
+  for (int k = 0; k <= intervals; ++k) {
+    const double time = k == intervals ? time_ : time_ * k / intervals;
+    if (time != now) {
+      const ClockTime from = problem_.start_time + now;
+      chief = exact_flow(problem_.system, chief, from, time - now);
+      z = exact_flow(problem_.system, z, from, time - now);
+      now = time;
+    }
+    samples.push_back({time, along_frame(chief, z)});
+  }
+  return samples;
 }
 
 /// The answers of all orders for the two states of a flight.
@@ -222,6 +244,8 @@ void refine(EnergyOptimalPolynomials& polynomials, const ThrustedFlight& flight,
 
 /// Parts of a flight with thrust for its integrals: 8 nodes in each.
 constexpr IntervalCount quadrature_panels = {12, 4, 2000};
+/// Parts of the flight at whose ends its thrust is told.
+constexpr IntervalCount profile_intervals = {72, 48, 2000};
 
 void solve(const Scene& scene, const ComputedProblem& problem, const FlowJet<double>& jet,
            EnergyOptimalTransfer& transfer) {
@@ -279,7 +303,13 @@ EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const Comput
       result.least = i;
     }
   }
-  if (result.least) return result;
+  if (result.least) {
+    const EnergyOptimalTransfer& least = result.transfers[*result.least];
+    result.profile =
+        ThrustedFlight(scene, problem, least.time)
+            .profile(least.refined->costates, interval_count(scene, least.time, profile_intervals));
+    return result;
+  }
   const auto weakest = std::min_element(
       result.transfers.begin(), result.transfers.end(), [](const auto& a, const auto& b) {
         const double infinity = std::numeric_limits<double>::infinity();

@@ -13,6 +13,7 @@
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
+#include "burns/finite_burns.hpp"
 #include "coasting_transfer.hpp"
 #include "energy_optimal.hpp"
 #include "flown_trajectory.hpp"
@@ -148,6 +149,10 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     const Stopwatch watch(result.seconds.thrust);
     result.thrust = energy_optimal_transfers(scene, problem, progress);
   }
+  if (scene.thruster) {
+    const Stopwatch watch(result.seconds.burns);
+    result.burns = finite_burns(scene, problem, result, progress);
+  }
   // Of deputies about one like themselves.
   if (scene.validity) result.validity = study_validity(with_deputy_coefficients(asked), progress);
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
@@ -173,7 +178,8 @@ int exit_code(const TransferResult& result) {
                            (result.waypoints && result.waypoints->best_plan) ||
                            (result.coasting && result.coasting->plan) ||
                            (result.revolutions && result.revolutions->best) ||
-                           (result.thrust && result.thrust->least);
+                           (result.thrust && result.thrust->least) ||
+                           (result.burns && result.burns->least);
   if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
   if (result.optimal && (!result.optimal->is_found() || !result.optimal->is_proved())) {
     return static_cast<int>(ErrorKind::check_failed);
@@ -181,7 +187,8 @@ int exit_code(const TransferResult& result) {
   const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
   const bool lacks_revolutions = result.revolutions && !result.revolutions->best;
   const bool lacks_thrust = result.thrust && !result.thrust->least;
-  if (lacks_way || lacks_revolutions || lacks_thrust ||
+  const bool lacks_burns = result.burns && !result.burns->least;
+  if (lacks_way || lacks_revolutions || lacks_thrust || lacks_burns ||
       (result.coasting && !result.coasting->plan)) {
     return static_cast<int>(ErrorKind::check_failed);
   }

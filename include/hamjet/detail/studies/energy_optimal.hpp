@@ -42,12 +42,20 @@ struct EnergyOptimalTransfer {
   bool is_found() const { return failure.empty(); }
 };
 
+/// The thrust at a time on the way.
+struct ThrustSample {
+  double time = 0;  ///< in canonical units
+  /// Acceleration along the axes of the scene's frame at that time.
+  Eigen::Vector3d thrust_m_s2 = Eigen::Vector3d::Zero();
+};
+
 /// The results of `thrust = "energy-optimal"`.
 struct EnergyOptimalTransfers {
   int order = 0;                                 ///< N of the jets in states and costates
   std::vector<EnergyOptimalTransfer> transfers;  ///< one for each time, away from 0
-  std::optional<std::size_t> least;  ///< the least change among those found that the scene allows
-  std::string failure;               ///< if not empty, the reason why there is none
+  std::optional<std::size_t> least;   ///< the least change among those found that the scene allows
+  std::vector<ThrustSample> profile;  ///< along the flight of the least, at equal times
+  std::string failure;                ///< if not empty, the reason why there is none
 };
 
 }  // namespace hamjet

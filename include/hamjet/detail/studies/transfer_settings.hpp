@@ -102,6 +102,23 @@ struct TransferSettings {
   bool strict = false;              ///< an answer beyond the tolerance makes the command fail
 };
 
+/// The axes in which the direction of a thrust stays the same during a burn.
+enum class BurnAttitude {
+  rtn,       ///< R, T, N of the spacecraft's own orbit, with which it turns
+  inertial,  ///< the inertial axes of the orbit
+};
+
+/// Table `[thruster]`: what makes the velocity changes of `[transfer]`.
+struct ThrusterSettings {
+  double acceleration_m_s2 = 0;         ///< of the full spacecraft
+  std::optional<double> exhaust_m_s;    ///< if absent, the acceleration stays the same
+  double mass_kg = 0;                   ///< of the full spacecraft; used with `exhaust_m_s` alone
+  std::optional<double> propellant_kg;  ///< that is on board; absent if none is counted
+  std::optional<double> longest_burn_s;
+  std::optional<double> shortest_burn_s;
+  BurnAttitude attitude = BurnAttitude::rtn;
+};
+
 /// Table `[validity]`: the separation up to which a polynomial's miss stays below a tolerance.
 struct ValiditySettings {
   double tolerance_m = 1;

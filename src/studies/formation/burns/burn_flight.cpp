@@ -1,0 +1,243 @@
+#include "burn_flight.hpp"
+
+#include <cmath>
+
+#include "../../../algebra/state_sums.hpp"
+#include "../../exact_flow.hpp"
+#include "../formation_problem.hpp"
+#include "../single_transfer.hpp"
+#include "../two_point_flight.hpp"
+#include "hamjet/algebra/composition.hpp"
+
+namespace hamjet {
+namespace {
+
+constexpr std::size_t states = 6;
+
+/// A unit vector; that of zero is along the motion, so that a burn can grow from nothing.
+Eigen::Vector3d direction_of(const Eigen::Vector3d& change) {
+  const double size = change.norm();
+  return size > 0 ? Eigen::Vector3d(change / size) : Eigen::Vector3d::UnitY();
+}
+
+/// A flight and its derivatives by the numbers of the state at its start.
+struct LinearizedFlight {
+  std::vector<double> end;
+  Matrix<double> matrix;
+};
+
+LinearizedFlight linearized(const SharedSystem& system, const std::vector<double>& start,
+                            const ClockTime& start_time, double duration) {
+  GaussSettings settings;
+  settings.tolerance = 1e-11;  // derivatives of Newton's method, which flights without them judge
+  IntegrationStatistics statistics;
+  const FlowJet<double> jet = integrate_gauss<double>(
+      linear_problem(system, SeriesSpace::create(start.size(), 1), start, start_time, duration),
+      settings, statistics);
+  return {nominal_of(jet), linear_part(jet)};
+}
+
+/// The mean time of the change of a burn from mass 1 on, in parts of the time that would burn all
+/// of it: the time is 1 - m, the change is x = -ln m of the exhaust's speed, and the mean is
+/// 1 - (1 - exp(-x)) / x. Small x take its series, as the differences would lose their digits.
+double mean_share(double x) {
+  if (x > 1e-2) return 1 + std::expm1(-x) / x;
+  return x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x / 720))));
+}
+
+double mean_share_rate(double x) {
+  if (x > 1e-2) return (-std::expm1(-x) - x * std::exp(-x)) / (x * x);
+  return 1.0 / 2 - x * (1.0 / 3 - x * (1.0 / 8 - x * (1.0 / 30 - x / 144)));
+}
+
+}  // namespace
+
+CanonicalThruster::CanonicalThruster(const ThrusterSettings& settings, const MetricUnits& units)
+    : acceleration(settings.acceleration_m_s2 * units.time_s / units.velocity_m_s()) {
+  if (settings.exhaust_m_s) exhaust = *settings.exhaust_m_s / units.velocity_m_s();
+}
+
+double CanonicalThruster::length(double change, double mass) const {
+  if (!mass_falls()) return change / acceleration;
+  return -mass * exhaust / acceleration * std::expm1(-change / exhaust);
+}
+
+double CanonicalThruster::mass_after(double change, double mass) const {
+  return mass_falls() ? mass * std::exp(-change / exhaust) : mass;
+}
+
+double CanonicalThruster::centre(double change, double mass) const {
+  if (!mass_falls()) return length(change, mass) / 2;
+  return mass * exhaust / acceleration * mean_share(change / exhaust);
+}
+
+double CanonicalThruster::centre_rate(double change, double mass) const {
+  if (!mass_falls()) return 1 / (2 * acceleration);
+  return mass / acceleration * mean_share_rate(change / exhaust);
+}
+
+BurnFlight::BurnFlight(const Scene& scene, const ComputedProblem& problem,
+                       const SharedSystem& burning, double duration)
+    : scene_(scene),
+      problem_(problem),
+      burning_(burning),
+      duration_(duration),
+      units_(metric_units(scene)),
+      chief_system_(is_like_chief(scene) ? problem.system : make_system(scene)),
+      chief_end_(exact_flow(chief_system_, problem.nominal, problem.start_time, duration)),
+      end_(scene.transfer->end.deviation(chief_end_, units_, scene.transfer->frame)) {}
+
+/// The rows are the axes of the thruster's attitude at a deputy's state.
+Eigen::Matrix3d BurnFlight::axes(const std::vector<double>& state) const {
+  if (scene_.thruster->attitude == BurnAttitude::inertial) return Eigen::Matrix3d::Identity();
+  const ChiefFrame own(state, units_, RelativeFrame::rtn_inertial);
+  Eigen::Matrix3d rows;
+  for (Eigen::Index i = 0; i < 3; ++i) rows.col(i) = own.along_axes(Eigen::Vector3d::Unit(i));
+  return rows;
+}
+
+std::vector<double> BurnFlight::start_state() const {
+  return state_sum(problem_.nominal, ChiefFrame(problem_.nominal, units_, scene_.transfer->frame)
+                                         .deviation(scene_.transfer->start));
+}
+
+BurnFlight::Changes BurnFlight::changes_of(const std::vector<Impulse>& impulses) const {
+  Changes changes;
+  std::vector<double> chief = problem_.nominal;
+  std::vector<double> deputy = start_state();
+  double now = 0;
+  for (const Impulse& impulse : impulses) {
+    if (impulse.time != now) {
+      const ClockTime from = problem_.start_time + now;
+      chief = exact_flow(chief_system_, chief, from, impulse.time - now);
+      deputy = exact_flow(problem_.system, deputy, from, impulse.time - now);
+      now = impulse.time;
+    }
+    const Eigen::Vector3d change =
+        momentum_of(ChiefFrame(chief, units_, scene_.transfer->frame)
+                        .deviation({Eigen::Vector3d::Zero(), impulse.change_m_s}));
+    changes.push_back(axes(deputy) * change);
+    for (std::size_t i = 0; i < 3; ++i) deputy[3 + i] += change[static_cast<Eigen::Index>(i)];
+  }
+  return changes;
+}
+
+std::vector<BurnSpan> BurnFlight::spans(const CanonicalThruster& thruster,
+                                        const std::vector<Impulse>& at,
+                                        const Changes& changes) const {
+  std::vector<BurnSpan> spans;
+  double mass = 1;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double size = changes[k].norm();
+    const double start = at[k].time - thruster.centre(size, mass);
+    spans.push_back({start, start + thruster.length(size, mass), mass});
+    mass = thruster.mass_after(changes[k].norm(), mass);
+  }
+  return spans;
+}
+
+std::vector<double> BurnFlight::burning_state(const CanonicalThruster& thruster,
+                                              std::vector<double> state, const BurnSpan& span,
+                                              const Eigen::Vector3d& change) const {
+  const double size = thruster.mass_falls() ? thruster.exhaust : thruster.acceleration;
+  for (const double x : Eigen::Vector3d(direction_of(change) * size)) state.push_back(x);
+  if (thruster.mass_falls()) {
+    const double empty = span.start + span.mass * thruster.exhaust / thruster.acceleration;
+    state.push_back((problem_.start_time + empty).in<double>());
+  }
+  return state;
+}
+
+BurnFlight::Vector6 BurnFlight::missing(const CanonicalThruster& thruster,
+                                        const std::vector<Impulse>& at,
+                                        const Changes& changes) const {
+  std::vector<double> state = start_state();
+  double now = 0;
+  const auto fly = [&](const SharedSystem& system, double time) {
+    if (time == now) return;
+    state = exact_flow(system, state, problem_.start_time + now, time - now);
+    now = time;
+  };
+  const std::vector<BurnSpan> times = spans(thruster, at, changes);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    fly(problem_.system, times[k].start);
+    state = burning_state(thruster, std::move(state), times[k], changes[k]);
+    fly(burning_, times[k].end);
+    state.resize(states);
+  }
+  fly(problem_.system, duration_);
+  const std::vector<double> missing = state_difference(end_, state_difference(state, chief_end_));
+  return Eigen::Map<const Vector6>(missing.data());
+}
+
+// Derivatives are carried at fixed times: where a thrust is switched on dt later, the state behind
+// has dt times its acceleration less, and where it is switched off later, as much more.
+Eigen::Matrix<double, 6, Eigen::Dynamic> BurnFlight::derivatives(const CanonicalThruster& thruster,
+                                                                 const std::vector<Impulse>& at,
+                                                                 const Changes& changes) const {
+  const auto columns = static_cast<Eigen::Index>(3 * changes.size());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> carried =
+      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, columns);
+  Eigen::RowVectorXd mass_rate = Eigen::RowVectorXd::Zero(columns);
+  std::vector<double> state = start_state();
+  double now = 0;
+  const auto coast = [&](double time) {
+    if (time == now) return;
+    LinearizedFlight leg =
+        linearized(problem_.system, state, problem_.start_time + now, time - now);
+    carried = leg.matrix * carried;
+    state = std::move(leg.end);
+    now = time;
+  };
+  const std::vector<BurnSpan> times = spans(thruster, at, changes);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const BurnSpan& span = times[k];
+    const auto own = static_cast<Eigen::Index>(3 * k);
+    const double size = changes[k].norm();
+    const Eigen::Vector3d direction = direction_of(changes[k]);
+    const double first = thruster.acceleration / span.mass;
+    const double last = thruster.acceleration / thruster.mass_after(size, span.mass);
+    // How much earlier the burn begins, and how much later it ends.
+    Eigen::RowVectorXd earlier = (at[k].time - span.start) / span.mass * mass_rate;
+    earlier.segment<3>(own) += thruster.centre_rate(size, span.mass) * direction.transpose();
+    Eigen::RowVectorXd later = span.length() / span.mass * mass_rate - earlier;
+    later.segment<3>(own) += direction.transpose() / last;
+    const auto switched = [&](double acceleration) {
+      return Eigen::Vector3d(axes(state).transpose() * direction * acceleration);
+    };
+    coast(span.start);
+    carried.bottomRows<3>() += switched(first) * earlier;
+    if (span.length() > 0) {
+      const LinearizedFlight leg =
+          linearized(burning_, burning_state(thruster, state, span, changes[k]),
+                     problem_.start_time + now, span.length());
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> parameters =
+          Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind(thruster).parameters()), columns);
+      const double scale = thruster.mass_falls() ? thruster.exhaust : thruster.acceleration;
+      parameters.block<3, 3>(0, own) =
+          scale / size * (Eigen::Matrix3d::Identity() - direction * direction.transpose());
+      if (thruster.mass_falls()) {
+        parameters.row(3) = thruster.exhaust / thruster.acceleration * mass_rate - earlier;
+      }
+      carried = leg.matrix.topLeftCorner(6, 6) * carried +
+                leg.matrix.block(0, 6, 6, parameters.rows()) * parameters;
+      state.assign(leg.end.begin(), leg.end.begin() + states);
+      now = span.end;
+    }
+    carried.bottomRows<3>() += switched(last) * later;
+    if (thruster.mass_falls()) {
+      // The mass behind is exp(-change / exhaust) of that before.
+      const double left = thruster.mass_after(size, 1);
+      mass_rate *= left;
+      mass_rate.segment<3>(own) -= span.mass * left / thruster.exhaust * direction.transpose();
+    }
+  }
+  coast(duration_);
+  return carried;
+}
+
+BurningThrust BurnFlight::kind(const CanonicalThruster& thruster) const {
+  return {scene_.thruster->attitude == BurnAttitude::rtn, thruster.mass_falls()};
+}
+
+}  // namespace hamjet
