@@ -185,6 +185,15 @@ int dispatch(int argc, char** argv) {
     hamjet::cli::add_override_option(*subcommand, options.overrides);
   };
   for (const std::string_view command : hamjet::io::study_commands()) add_study(command);
+  app.get_subcommand("uncertainty")
+      ->add_option_function<std::string>(
+          "--radius_m",
+          [&](const std::string& metres) {
+            options.overrides.push_back("uncertainty.collision.radius_m=" + metres);
+          },
+          "the sum of the radii of both spacecraft, of a conjunction data message in place of a "
+          "scene")
+      ->type_name("METRES");
   hamjet::cli::StoredJetChoice stored;
   CLI::App& transfer = *app.get_subcommand("transfer");
   CLI::Option* jet =

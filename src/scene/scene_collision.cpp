@@ -39,7 +39,8 @@ const TableDescription& collision_table() {
   return table;
 }
 
-std::array<double, 2> read_window(const TableReader& table, const Scene& scene) {
+std::array<double, 2> read_window(const TableReader& table, const Scene& scene,
+                                  bool may_begin_before) {
   if (!scene.deputy) {
     table.fail("", "of a scene without a deputy, got no table [deputy], must have one");
   }
@@ -50,11 +51,10 @@ std::array<double, 2> read_window(const TableReader& table, const Scene& scene) 
   std::vector<double> window = {0, duration_s};
   if (table.has("window_s")) {
     window = table.numbers("window_s", 2);
-    if (!(window[0] >= 0 && window[0] < window[1])) {
+    if (!((may_begin_before || window[0] >= 0) && window[0] < window[1])) {
       table.fail("window_s",
-                 fmt::format("no window, got {} to {}, must begin at 0 or later and end after "
-                             "it begins",
-                             window[0], window[1]));
+                 fmt::format("no window, got {} to {}, must {}end after it begins", window[0],
+                             window[1], may_begin_before ? "" : "begin at 0 or later and "));
     }
     // The end of the window may have been rounded when it was written.
     constexpr double rounding = 1e-9;
@@ -69,7 +69,8 @@ std::array<double, 2> read_window(const TableReader& table, const Scene& scene) 
 
 SceneKey window_key(std::string_view absence) {
   return {"window_s", form::array(form::number(), 2), absent::other(std::string(absence)),
-          "begin and end of the window after the start, the first before the second"};
+          "begin and end of the window after the start, the first before the second; negative "
+          "before the start, of a collision without a burn"};
 }
 
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene) {
@@ -89,10 +90,11 @@ double read_nearness(const TableReader& table, std::string_view key, const Scene
   return length_m;
 }
 
-CollisionWatch read_collision(const TableReader& collision, const Scene& scene) {
+CollisionWatch read_collision(const TableReader& collision, const Scene& scene, bool has_burn) {
   collision.check_keys();
   CollisionWatch watch;
-  const auto window = read_window(collision, scene);
+  // Before a burn that ends at the start, the trajectory is a different one.
+  const auto window = read_window(collision, scene, !has_burn);
   watch.from = window[0];
   watch.to = window[1];
   watch.has_window = collision.has("window_s");

@@ -79,10 +79,12 @@ RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
 bool has_collision(const TableReader& root);
 
 /// Keys of the tables that watch the distance of spacecraft: the canonical ends of `window_s`, in a
-/// scene with a deputy and a positive duration, and a length that is small compared to the chief's
-/// distance from the centre but not below the accuracy of the motion.
+/// scene with a deputy and a positive duration, before the start only if `may_begin_before`, and a
+/// length that is small compared to the chief's distance from the centre but not below the accuracy
+/// of the motion.
 SceneKey window_key(std::string_view absence = "from the start to the end");
-std::array<double, 2> read_window(const TableReader& table, const Scene& scene);
+std::array<double, 2> read_window(const TableReader& table, const Scene& scene,
+                                  bool may_begin_before);
 double read_nearness(const TableReader& table, std::string_view key, const Scene& scene);
 
 /// Warnings: a line for each deputy that is a twentieth of the chief's distance from the centre

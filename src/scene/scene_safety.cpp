@@ -78,7 +78,7 @@ SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nom
                         bool has_burn) {
   safety.check_keys();
   SafetyWatch watch;
-  const auto window = read_window(safety, scene);
+  const auto window = read_window(safety, scene, false);
   watch.from = window[0];
   watch.to = window[1];
   watch.keep_apart_m = read_nearness(safety, "keep_apart_m", scene);

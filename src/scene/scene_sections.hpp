@@ -240,7 +240,7 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                                    const Nominal& nominal);
 
 /// Table `[uncertainty.collision]` of a scene whose table `[deputy]` has been read.
-CollisionWatch read_collision(const TableReader& collision, const Scene& scene);
+CollisionWatch read_collision(const TableReader& collision, const Scene& scene, bool has_burn);
 
 /// Table `[uncertainty.safety]`, for a scene with or without a burn.
 SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nominal& nominal,

@@ -9,6 +9,7 @@
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
 #include "scene_name.hpp"
+#include "scene_of_conjunction.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
 #include "systems/scene_earth.hpp"
@@ -199,8 +200,14 @@ std::string default_title(const std::string& file_name) {
 
 Study parse_study(std::string_view text, const std::string& file_name,
                   const std::vector<Override>& overrides, SceneUnits units) {
-  SceneDocument document = parse_document(text, printable(file_name, std::string::npos), overrides,
-                                          default_integrator_table());
+  std::string name = printable(file_name, std::string::npos);
+  std::string of_message;
+  if (is_conjunction_message(text)) {
+    of_message = scene_of_conjunction(text, file_name, overrides);
+    text = of_message;
+    name += ", as a scene";
+  }
+  SceneDocument document = parse_document(text, name, overrides, default_integrator_table());
   document.source.folder = std::filesystem::path(file_name).parent_path();
   return read_document(document, file_name, units);
 }

@@ -280,7 +280,14 @@ const TableDescription& uncertainty_table() {
       joined<SceneKey>(
           {covariance_frame_keys(absent::value("RTN")),
            state_uncertainty_keys(),
-           {{"deputy", form::table(deputy_uncertainty_table()), absent::other("known exactly"),
+           {{"gaussian_in", form::choice({gaussian_in_names.begin(), gaussian_in_names.end()}),
+             absent::value(gaussian_in_names[0]),
+             "the coordinates in which the states at the start are Gaussian: positions and "
+             "velocities, or elements of the orbit (Poincaré's, near to equinoctial ones), with "
+             "the covariance that the linear map to them makes; auto: elements of a spacecraft "
+             "whose orbit bends away from the line of a Gaussian in positions by a tenth or more "
+             "of what is uncertain across it"},
+            {"deputy", form::table(deputy_uncertainty_table()), absent::other("known exactly"),
              "uncertainty of the deputy, in a scene that has one"},
             {"burn", form::table(burn_table()), absent::other("none"), "errors of a burn"},
             {"collision", form::table(collision_table()), absent::other("not looked for"),
@@ -329,7 +336,8 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
     settings.chief = read_state_uncertainty(uncertainty, uncertainty, scene, nominal, nullptr);
   }
   if (uncertainty.has("collision")) {
-    settings.collision = read_collision(uncertainty.table("collision"), scene);
+    settings.collision =
+        read_collision(uncertainty.table("collision"), scene, settings.burn.has_value());
   }
   if (uncertainty.has("safety")) {
     settings.safety =
@@ -347,6 +355,7 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
           "on the time, got \"flow-box\", must be left out");
     }
   }
+  uncertainty.read_if_any("gaussian_in", settings.gaussian_in);
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);
   if (settings.acceleration_density_m2_s3 > 0 && (settings.collision || settings.safety)) {
     uncertainty.fail(

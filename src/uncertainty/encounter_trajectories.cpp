@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -15,11 +16,20 @@ namespace {
 
 constexpr std::size_t most_looks = 200000;
 
-/// The jets of one spacecraft in the window.
-JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::size_t craft) {
+double small_circle_period(double distance) {
+  return 2 * std::numbers::pi * std::pow(distance, 1.5);
+}
+
+}  // namespace
+
+WindowJets window_jets(const EncounterProblem& problem, std::size_t craft) {
   FlowProblem<double> flow{problem.system,     SeriesSpace::create(6, problem.order),
                            {0, 1, 2, 3, 4, 5}, problem.spacecraft[craft].state,
                            problem.start_time, problem.from};
+  if (const auto& straight = problem.spacecraft[craft].straight) {
+    flow.initial_jet = straight->series(flow.space);
+    for (std::size_t i = 0; i < 6; ++i) (*flow.initial_jet)[i][0] = flow.initial_state[i];
+  }
   if (problem.from != 0) {
     IntegrationStatistics statistics;
     flow.initial_jet = integrate_gauss(flow, problem.settings, statistics);
@@ -27,26 +37,23 @@ JetTrajectory<double> window_trajectory(const EncounterProblem& problem, std::si
     flow.start_time = problem.start_time + problem.from;
   }
   flow.duration = problem.to - problem.from;
-  return {flow, problem.settings};
+  return std::make_shared<const JetTrajectory<double>>(flow, problem.settings);
 }
-
-double small_circle_period(double distance) {
-  return 2 * std::numbers::pi * std::pow(distance, 1.5);
-}
-
-}  // namespace
 
 EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem)
-    : system_(problem.system), from_(problem.from), to_(problem.to) {
+    : EncounterTrajectories(problem, {window_jets(problem, 0), window_jets(problem, 1)}) {}
+
+EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem,
+                                             std::array<WindowJets, 2> jets)
+    : system_(problem.system), from_(problem.from), to_(problem.to), jets_(std::move(jets)) {
   for (std::size_t craft = 0; craft < 2; ++craft) {
     starts_[craft] = problem.spacecraft[craft].state;
     factors_[craft] = problem.spacecraft[craft].factor;
-    trajectories_.push_back(window_trajectory(problem, craft));
   }
 }
 
 FlowJet<double> EncounterTrajectories::jet(std::size_t craft, double time) const {
-  return trajectories_[craft].at(std::clamp(time - from_, 0.0, to_ - from_));
+  return jets_[craft]->at(std::clamp(time - from_, 0.0, to_ - from_));
 }
 
 LinearRelativeState EncounterTrajectories::linear(

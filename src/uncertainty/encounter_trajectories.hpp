@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "hamjet/integrators/jet_trajectory.hpp"
@@ -9,14 +10,23 @@
 
 namespace hamjet {
 
-/// The jets of both spacecraft of an encounter at the times of its window, after the epoch. If only
-/// the means are needed, a problem of order 0 gives the same and is faster.
+/// The jets of one spacecraft in the window of an encounter, in its linear deviations at the epoch.
+/// They are immutable, and encounters may share them.
+using WindowJets = std::shared_ptr<const JetTrajectory<double>>;
+/// Throws as integrate_gauss.
+WindowJets window_jets(const EncounterProblem& problem, std::size_t craft);
+
+/// The jets of both spacecraft of an encounter, in their linear deviations, at the times of its
+/// window, after the epoch. If only the means are needed, a problem of order 0 gives the same and
+/// is faster.
 ///
 /// The object is immutable: threads may share one.
 class EncounterTrajectories {
  public:
   /// Throws as integrate_gauss.
   explicit EncounterTrajectories(const EncounterProblem& problem);
+  /// With jets that exist already.
+  EncounterTrajectories(const EncounterProblem& problem, std::array<WindowJets, 2> jets);
 
   double from() const { return from_; }
   double to() const { return to_; }
@@ -52,7 +62,7 @@ class EncounterTrajectories {
   std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
   double from_;
   double to_;
-  std::vector<JetTrajectory<double>> trajectories_;  ///< the two trajectories in the window
+  std::array<WindowJets, 2> jets_;
 };
 
 }  // namespace hamjet

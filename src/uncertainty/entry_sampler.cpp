@@ -21,8 +21,6 @@ constexpr double whole_turn = 2 * std::numbers::pi;
 constexpr double narrowest = 0.01;
 /// Conditions whose rows depend on each other to this fraction count as one condition.
 constexpr double dependent = 1e-6;
-/// The largest number of boxes, which take a tenth of a second.
-constexpr std::size_t box_count = 100000;
 
 /// A number x > 0 with a density proportional to x exp(-(x - a)^2 / 2), by rejection.
 double draw_entry_speed(double a, RandomStream& random) {
@@ -130,7 +128,7 @@ NormalFactor EntrySampler::inside(const std::array<double, 3>& point) const {
           {white[0], white[1], white[2]}};
 }
 
-std::vector<Box> EntrySampler::boxes() const {
+std::vector<Box> EntrySampler::first_boxes() const {
   // The first boxes: in the interval between two times the mean moves by no more than the width of
   // sphere and uncertainty together. Intervals that stay far from the sphere are left out.
   std::vector<Box> boxes;
@@ -157,15 +155,16 @@ std::vector<Box> EntrySampler::boxes() const {
   return boxes;
 }
 
-EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late)
+EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late,
+                           std::size_t boxes)
     : paths_(&paths),
       radius_(radius),
-      entering_(boxes(), entering(), box_count),
+      entering_(first_boxes(), entering(), boxes),
       inside_(
           paths.has_begin()
               ? std::vector<Box>{{{0, -whole_turn / 4, 0}, {1, whole_turn / 4, whole_turn}}}
               : std::vector<Box>{},
-          [this](const std::array<double, 3>& point) { return inside(point); }, box_count) {
+          [this](const std::array<double, 3>& point) { return inside(point); }, boxes) {
   for (std::size_t node = 0; node < paths.times().size(); ++node) {
     const auto axes = paths.linear(node).by_deviation.topRows(3);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(axes * axes.transpose(),
@@ -189,6 +188,12 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
       share_entering_ = std::max(share_entering_, 1 - share_of_late);
     }
   }
+}
+
+double EntrySampler::log_mass() const {
+  const double largest = std::max(entering_.log_mass(), inside_.log_mass());
+  return largest + std::log(std::exp(entering_.log_mass() - largest) +
+                            std::exp(inside_.log_mass() - largest));
 }
 
 EncounterDeviation EntrySampler::draw(RandomStream& random) const {

@@ -52,7 +52,10 @@ class EntrySampler {
   /// their probability or, where they count only once they return (`begin_counts_late`), in at most
   /// a 20th of the draws. Throws Error(numerical) where the position is nearly certain in some
   /// direction, with a standard deviation below a hundredth of the radius.
-  EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late);
+  EntrySampler(const RelativePaths& paths, double radius, bool begin_counts_late,
+               std::size_t boxes = most_boxes);
+  /// The largest number of boxes, which take a tenth of a second.
+  static constexpr std::size_t most_boxes = 100000;
 
   /// Whether no path enters within the standard deviations that double precision can resolve.
   bool is_empty() const { return entering_.is_empty() && inside_.is_empty(); }
@@ -63,6 +66,9 @@ class EntrySampler {
   std::optional<double> log_density_ratio(std::span<const std::array<double, 6>> states) const;
 
   double radius() const { return radius_; }
+  /// The logarithm of the mean number of entries, with the paths that begin inside; according to
+  /// the boxes.
+  double log_mass() const;
 
  private:
   struct AtTime;
@@ -71,7 +77,7 @@ class EntrySampler {
   Entry entry(const AtTime& state, double latitude, double longitude) const;
   BoxDensity::Density entering() const;
   NormalFactor inside(const std::array<double, 3>& point) const;
-  std::vector<Box> boxes() const;
+  std::vector<Box> first_boxes() const;
 
   const RelativePaths* paths_;
   double radius_;

@@ -30,7 +30,8 @@ constexpr double rounding_of_flow = 1e-12;
 }  // namespace
 
 std::array<double, 6> UncertainSpacecraft::deviated(const Eigen::Matrix<double, 6, 1>& xi) const {
-  const Eigen::Matrix<double, 6, 1> deviation = factor * xi;
+  Eigen::Matrix<double, 6, 1> deviation = factor * xi;
+  if (straight) deviation = (*straight)(deviation);
   std::array<double, 6> result{};
   for (std::size_t i = 0; i < 6; ++i)
     result[i] = state[i] + deviation[static_cast<Eigen::Index>(i)];
@@ -88,14 +89,26 @@ struct RelativePaths::Look {
 
 RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, double sphere) {
   validate(problem);
-  for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
   const EncounterTrajectories trajectories(problem);
   // The choice of nodes uses low orders, which are faster.
   EncounterProblem of_low_order = problem;
-  of_low_order.order = std::min(problem.order, 2);
+  of_low_order.order = std::min(problem.order, order_of_looks);
   std::optional<EncounterTrajectories> of_its_own;
   if (of_low_order.order < problem.order) of_its_own.emplace(of_low_order);
-  const EncounterTrajectories& low = of_its_own ? *of_its_own : trajectories;
+  lay_nodes(problem, accuracy, sphere, trajectories, of_its_own ? *of_its_own : trajectories);
+}
+
+RelativePaths::RelativePaths(const EncounterProblem& problem, double accuracy, double sphere,
+                             const EncounterTrajectories& trajectories,
+                             const EncounterTrajectories& low) {
+  validate(problem);
+  lay_nodes(problem, accuracy, sphere, trajectories, low);
+}
+
+void RelativePaths::lay_nodes(const EncounterProblem& problem, double accuracy, double sphere,
+                              const EncounterTrajectories& trajectories,
+                              const EncounterTrajectories& low) {
+  for (std::size_t i = 0; i < 2; ++i) factors_[i] = problem.spacecraft[i].factor;
   const auto look_at = [&](double time) {
     const std::array<FlowJet<double>, 2> jets = {low.jet(0, time), low.jet(1, time)};
     return Look{time, low.linear(jets), low.second_order(jets, farthest_deviation)};

@@ -11,6 +11,8 @@
 
 namespace hamjet {
 
+class EncounterTrajectories;
+
 /// The number of standard normal numbers that describe an encounter: six for each spacecraft.
 inline constexpr std::size_t encounter_variables = 12;
 using EncounterDeviation = Eigen::Matrix<double, 12, 1>;
@@ -18,6 +20,9 @@ using EncounterDeviation = Eigen::Matrix<double, 12, 1>;
 /// Paths further from the sphere than this, in standard deviations, have a probability of 1e-19 or
 /// less and are left out.
 inline constexpr double farthest_deviation = 9;
+
+/// The order of the jets by which nodes are chosen, where that of the problem is not lower.
+inline constexpr int order_of_looks = 2;
 
 /// Relative position and velocity as a linear function of the twelve standard normal numbers.
 struct LinearRelativeState {
@@ -46,6 +51,9 @@ class RelativePaths {
   /// infinite, all do. Throws as validate and integrate_gauss, and Error(too_large) for a window
   /// that would take too many nodes.
   RelativePaths(const EncounterProblem& problem, double accuracy, double sphere);
+  /// With jets that exist already, of the problem's order and of order_of_looks.
+  RelativePaths(const EncounterProblem& problem, double accuracy, double sphere,
+                const EncounterTrajectories& trajectories, const EncounterTrajectories& low);
 
   const std::vector<double>& times() const noexcept { return times_; }
   /// The first node of each arc that is not left out; an arc ends at the next node.
@@ -66,6 +74,9 @@ class RelativePaths {
 
  private:
   struct Look;
+
+  void lay_nodes(const EncounterProblem& problem, double accuracy, double sphere,
+                 const EncounterTrajectories& trajectories, const EncounterTrajectories& low);
 
   /// For each spacecraft and each degree, from 1.
   std::array<std::vector<MapEvaluator>, 2> evaluators_;

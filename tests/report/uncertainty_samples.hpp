@@ -63,6 +63,7 @@ inline LeastSeparations sample_separations() {
 
 inline CollisionResult sample_collision() {
   CollisionResult result;
+  result.gaussian_in = {"positions", "elements"};
   result.watch.radius_m = 15;
   result.watch.event = CollisionEvent::entry;
   result.watch.confidence = 0.75;

@@ -69,6 +69,7 @@ inline ExpectedColumns collision_columns() {
           {"window_s", {"s", {10, 100}}},
           {"window_widened", {"", true}},
           {"event", {"", "entry"}},
+          {"gaussian_in", {"", {"positions", "elements"}}},
           {"order", {"", 2}},
           {"sampling", {"", "entries"}},
           {"probability", {"", 0.25}},

@@ -107,6 +107,33 @@ TEST(Uncertainty, MomentsAreThoseOfStatesThatWereFlown) {
   }
 }
 
+// 40 km along the track are 5.8 mrad, and bend the orbit by 116 m in the mean, more than the 100 m
+// across it. The flown samples begin at exact states of elements.
+TEST(Uncertainty, MomentsOfAStartInElementsAreThoseOfItsFlights) {
+  const std::string long_track =
+      "[uncertainty]\nposition_m = [100, 40000, 100]\nvelocity_m_s = [0.1, 0.1, 0.1]\n";
+  UncertainOrbit half = low;
+  half.duration = "duration_orbits = 0.5";
+  const auto state_of = [&](const std::string& keys, const std::string& coordinates) {
+    return study_uncertainty(scene_of(half, 4, long_track + keys, coordinates));
+  };
+  for (const std::string coordinates : {"cartesian", "flow-box"}) {
+    const UncertaintyResult result = state_of("samples = 4000\n", coordinates);
+    ASSERT_EQ(result.start_notes.size(), 1U);
+    const UncertainState& state = result.points.at(0).states.at(0);
+    expect_within(state.cartesian.back(), *state.flown, allowed_scatter, "in elements");
+    EXPECT_NEAR(state.cartesian.back().mean()[0], -116, 12);
+    if (coordinates == "cartesian") continue;
+    ASSERT_EQ(state.through.size(), 4U);
+    expect_within(state.through.back(), *state.flown, allowed_scatter, "flow box");
+  }
+  const UncertaintyResult straight =
+      state_of("samples = 0\ngaussian_in = \"positions\"\n", "cartesian");
+  EXPECT_TRUE(straight.start_notes.empty());
+  const Cumulants& moments = straight.points.at(0).states.at(0).cartesian.back();
+  EXPECT_GT(std::abs(moments.mean()[0] + 116), 40);
+}
+
 // Small negentropies are leading terms, of the square of the deviations; larger ones are told by
 // volumes, of which the period's coordinate changes its own. Between 5.6e-5 and 1e-4 one takes the
 // other's place: they differ by their squares and what the order leaves out.

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
+#include "hamjet/charts/straight_deviations.hpp"
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/dynamics/clock_time.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -12,11 +14,15 @@ namespace hamjet {
 /// One of two spacecraft at the epoch, in the units of the system.
 struct UncertainSpacecraft {
   std::vector<double> state;  ///< the mean, six numbers (position, velocity)
-  /// The factor L of the covariance L L^T: the deviation from the mean is L xi, where xi are six
-  /// independent standard normal numbers.
+  /// The factor L of the covariance L L^T: the linear deviation from the mean is L xi, where xi are
+  /// six independent standard normal numbers.
   Eigen::Matrix<double, 6, 6> factor = Eigen::Matrix<double, 6, 6>::Zero();
+  /// For a state that is Gaussian in the coordinates of a chart: the deviations to which linear
+  /// ones belong, about `state`. Without, positions and velocities are Gaussian.
+  std::optional<StraightDeviations> straight;
 
-  /// The state that deviates from the mean by L xi.
+  /// The state that belongs to the linear deviation L xi. Its numbers are not finite if the chart's
+  /// coordinates belong to no state.
   std::array<double, 6> deviated(const Eigen::Matrix<double, 6, 1>& xi) const;
 };
 
@@ -30,7 +36,7 @@ struct EncounterProblem {
   double from = 0;       ///< start of the window, after the epoch; before the epoch where negative
   double to = 0;         ///< end of the window; not before `from`
   double radius = 0;     ///< the sum of the radii of both bodies: a smaller distance is a collision
-  int order = 3;         ///< order of the polynomials in the deviations at the epoch
+  int order = 3;         ///< order of the polynomials in the linear deviations at the epoch
   GaussSettings settings = {};
 };
 

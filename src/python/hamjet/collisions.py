@@ -1,8 +1,9 @@
-"""Probabilities of collision of pairs that are given as arrays."""
+"""Probabilities of collision of pairs that are given as arrays or as messages."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import os
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from .studies import Columns
 
 #: The name of the scene that a pair makes, for messages.
 _NAME = "pair"
+#: The key that a conjunction data message does not say.
+_RADIUS = "uncertainty.collision.radius_m"
 
 
 class Collisions(Columns, table="collision"):
@@ -55,6 +58,20 @@ def _numbers(values: npt.ArrayLike, place: str, tail: tuple[int, ...]) -> Floats
     return array
 
 
+def _collisions(found: list[dict[str, Any]], pairs: tuple[int, ...]) -> Collisions:
+    """The columns of the pairs' tables, stacked in the shape of the pairs."""
+    def stacked(table: str, column: str) -> npt.NDArray[Any]:
+        array = np.array([one[table][column] for one in found])
+        array = array.reshape(pairs + array.shape[1:])
+        array.flags.writeable = False
+        return array
+
+    tables = {table: {column: stacked(table, column) for column in columns}
+              for table, columns in found[0].items()}
+    own = tables.pop("collision")
+    return Collisions({**own, **{name: Columns(columns) for name, columns in tables.items()}})
+
+
 def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Floats,
            frame: str, settings: Mapping[str, Any]) -> dict[str, Any]:
     difference = states[1] - states[0]
@@ -68,6 +85,7 @@ def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Float
         "jet": {"order": settings["order"], "duration_s": float(window_s[1])},
         "uncertainty": {
             "frame": frame, "covariance_m_m_s": covariances[0].tolist(), "seed": settings["seed"],
+            "gaussian_in": settings["gaussian_in"],
             "deputy": {"frame": frame, "covariance_m_m_s": covariances[1].tolist()},
             "collision": {"radius_m": radius_m, "window_s": window_s.tolist(),
                           **{key: settings[key]
@@ -79,13 +97,14 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
                           frame: str = "inertial", system: Mapping[str, Any] | None = None,
                           order: int = 3, event: str = "nearer", sampling: str = "automatic",
                           samples: int = 200000, confidence: float = 0.95, seed: int = 1,
+                          gaussian_in: str = "auto",
                           progress: Progress | None = None) -> Collisions:
     """How likely two spacecraft are to hit each other, as ``[uncertainty.collision]`` finds it.
 
     states: (..., 2, 6), positions in m and velocities in m/s of both at the epoch, along inertial
     axes. covariances: (..., 2, 6, 6), of these, independent; with ``frame="RTN"`` along each one's
     own R, T, N, velocities being inertial. radius_m: of both together, one number or one for each
-    pair. window_s: from when to when after the epoch, (2,) or (..., 2). system: the keys of a
+    pair. window_s: from when to when after the epoch (negative before it), (2,) or (..., 2). system: the keys of a
     scene's [system], by default the Earth's mu alone. The others are the keys of a scene of these
     names.
 
@@ -108,7 +127,8 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
                          f"{given_windows.shape}, must be those of the pairs, {pairs} and "
                          f"{pairs + (2,)}") from None
     settings = {"system": dict(system or {}), "order": order, "event": event,
-                "sampling": sampling, "samples": samples, "confidence": confidence, "seed": seed}
+                "sampling": sampling, "samples": samples, "confidence": confidence, "seed": seed,
+                "gaussian_in": gaussian_in}
     found: list[dict[str, Any]] = []
     for index in np.ndindex(pairs):
         scene = _scene(both[index], matrices[index], float(radii[index]), windows[index], frame,
@@ -118,14 +138,32 @@ def collision_probability(states: npt.ArrayLike, covariances: npt.ArrayLike,
         _nearest(found[-1])
     if not found:
         raise UsageError(f"states: no pair, got {both.shape}, must have one at least")
+    return _collisions(found, pairs)
 
-    def stacked(table: str, column: str) -> npt.NDArray[Any]:
-        array = np.array([one[table][column] for one in found])
-        array = array.reshape(pairs + array.shape[1:])
-        array.flags.writeable = False
-        return array
 
-    tables = {table: {column: stacked(table, column) for column in columns}
-              for table, columns in found[0].items()}
-    own = tables.pop("collision")
-    return Collisions({**own, **{name: Columns(columns) for name, columns in tables.items()}})
+def conjunctions(messages: Iterable[str | os.PathLike[str]], radius_m: npt.ArrayLike, *,
+                 overrides: scenes.Overrides | None = None,
+                 progress: Progress | None = None) -> Collisions:
+    """How likely the objects of conjunction data messages are to hit each other.
+
+    messages: paths of CDMs. radius_m: of both objects together, one number or one for each
+    message. overrides: of the scenes that the messages make, as of ``hamjet uncertainty``.
+
+    Raises SceneError for what a message lacks, InputOutputError for what is none, NumericalError,
+    TooLargeError.
+    """
+    files = [messages] if isinstance(messages, (str, os.PathLike)) else list(messages)
+    if not files:
+        raise UsageError("messages: none, must be the paths of conjunction data messages")
+    given = _numbers(radius_m, "radius_m", ())
+    if given.shape not in ((), (len(files),)):
+        raise UsageError(f"radius_m: wrong shape, got {given.shape}, must be one number or "
+                         f"({len(files)},)")
+    found = []
+    for file, radius in zip(files, np.broadcast_to(given, (len(files),))):
+        of_radius = [(_RADIUS, repr(float(radius)))]
+        scene = scenes.read(file, [f"{key}={value}" for key, value
+                                   in of_radius + scenes._pairs(overrides)])
+        found.append(_hamjet.study_collision(scene, arguments.progress(progress)))
+        _nearest(found[-1])
+    return _collisions(found, (len(files),))

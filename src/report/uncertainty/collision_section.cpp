@@ -172,6 +172,12 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
       "The probability of coming nearer than {:g} m is {:.5g} ({:g} % from {:.5g} to "
       "{:.5g}).",
       result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
+  if (const auto& whole = result.of_whole_passage) {
+    section.verdict += fmt::format(
+        " But an edge of the window lies inside the passage, of the whole of which it is {:.5g} "
+        "({:g} % from {:.5g} to {:.5g}).",
+        whole->probability, result.watch.confidence * 100, whole->lower, whole->upper);
+  }
   section.warnings = result.warnings;
   section.table = collision_table_text(result);
   section.title = "Collision";

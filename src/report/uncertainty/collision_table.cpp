@@ -4,6 +4,8 @@
 
 #include <array>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "../../store/result_table.hpp"
 
@@ -56,6 +58,9 @@ TableView collision_table(const CollisionResult& result) {
                    result.is_widened);
   table.add_scalar("event", "", "what counts as a collision",
                    collision_event_names[static_cast<std::size_t>(result.watch.event)]);
+  table.add_scalars("gaussian_in", "",
+                    "the coordinates in which the starts of chief and deputy are Gaussian",
+                    std::vector<std::string>(result.gaussian_in.begin(), result.gaussian_in.end()));
   table.add_scalar("order", "", "the order of the polynomials", result.order);
   table.add_scalar("sampling", "", "how samples were drawn",
                    collision_sampling_names[static_cast<std::size_t>(p.sampling)]);

@@ -117,10 +117,12 @@ std::string terminal_table(const UncertaintyResult& result,
                            const std::vector<UncertaintySection>& sections) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  std::string text = fmt::format("{}\n{}\n", result.scene.title, uncertainty_answer(result));
+  // What a scene asks for beside the moments comes first.
+  std::string text = result.scene.title + "\n";
   for (const UncertaintySection& section : sections) {
     if (!section.verdict.empty()) text += section.verdict + "\n";
   }
+  text += uncertainty_answer(result) + "\n";
   text += uncertainty_judgement(result) + "\n";
   for (const std::string& warning : all_of(sections, &UncertaintySection::warnings)) {
     text += "warning: " + warning + "\n";
@@ -150,11 +152,10 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   const UncertainState& judged = judged_state(last);
   ReportPage page;
   page.title = result.scene.title + ": uncertainty";
-  page.verdict = uncertainty_answer(result);
   for (const UncertaintySection& section : sections) {
-    if (!section.verdict.empty()) page.verdict += " " + section.verdict;
+    if (!section.verdict.empty()) page.verdict += section.verdict + " ";
   }
-  page.verdict += " " + uncertainty_judgement(result);
+  page.verdict += uncertainty_answer(result) + " " + uncertainty_judgement(result);
   for (const std::string& warning : all_of(sections, &UncertaintySection::warnings)) {
     page.verdict += " Warning: " + warning + ".";
   }

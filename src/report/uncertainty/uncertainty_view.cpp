@@ -283,7 +283,7 @@ std::string negentropy_text(double negentropy, bool is_sure) {
 
 std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
   const UncertaintySettings& settings = *result.scene.uncertainty;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = result.start_notes;
   const auto mended = [&](const std::optional<StateUncertainty>& state, std::string_view whose) {
     if (!state || state->covariance.taken_as_zero() == 0) return;
     notes.push_back(

@@ -28,8 +28,11 @@ AlongTrackBend along_track_bend(const EncounterProblem& problem, const Encounter
     const Eigen::Matrix<double, 1, 6> radial = r.transpose() * spacecraft.factor.topRows(3);
     const double variance = along.squaredNorm();
     const double at = along.dot(about.segment<6>(static_cast<Eigen::Index>(6 * craft)));
-    result.deviations[craft] = std::sqrt(variance);
-    result.bend += (at * at + variance) / (2 * distance);
+    // Elements bend with the orbit.
+    if (!spacecraft.straight) {
+      result.deviations[craft] = std::sqrt(variance);
+      result.bend += (at * at + variance) / (2 * distance);
+    }
     const double common = variance > 0 ? std::pow(along.dot(radial), 2) / variance : 0;
     radial_variance += std::max(0.0, radial.squaredNorm() - common);
   }

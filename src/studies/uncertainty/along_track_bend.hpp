@@ -16,8 +16,9 @@ namespace hamjet {
 ///
 /// at a deviation T along the track, where r is the distance from the centre.
 struct AlongTrackBend {
-  std::array<double, 2> deviations{};  ///< standard deviations along the track, for both spacecraft
-  /// The bend at the given deviations plus their standard deviations, for both spacecraft together.
+  /// Standard deviations along the track of each spacecraft that is Gaussian in positions.
+  std::array<double, 2> deviations{};
+  /// The bend at the given deviations plus these, for both spacecraft together.
   double bend = 0;
   double radial = 0;  ///< standard deviation along R if that along T is known, for both together
 

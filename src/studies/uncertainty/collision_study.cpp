@@ -246,6 +246,11 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   result.order = scene.order;
   const MetricUnits units = metric_units(scene);
   EncounterProblem problem = encounter_problem(scene, result.watch, units);
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    const GaussianIn in =
+        problem.spacecraft[craft].straight ? GaussianIn::elements : GaussianIn::positions;
+    result.gaussian_in[craft] = gaussian_in_names[static_cast<std::size_t>(in)];
+  }
   // Before a burn that ends at the start, the trajectory is a different one.
   const std::optional<EncounterProblem> whole =
       scene.uncertainty->burn && problem.from == 0 ? std::nullopt : with_whole_passages(problem);

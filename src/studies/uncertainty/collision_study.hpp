@@ -55,6 +55,8 @@ struct UncertainApproach {
 /// at the start.
 struct CollisionResult {
   CollisionWatch watch;
+  /// The coordinates in which the starts of chief and deputy are Gaussian.
+  std::array<std::string, 2> gaussian_in;
   double from_s = 0;  ///< the window that was examined
   double to_s = 0;
   /// The window is wider than the scene's start to end, in a scene without a window, because it

@@ -1,6 +1,13 @@
 #include "initial_states.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
+#include "hamjet/error.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"
 
 namespace hamjet {
@@ -18,9 +25,76 @@ Covariance canonical_covariance(const Covariance& covariance, RelativeFrame fram
   return covariance.mapped(deviations_of_relative_states(own));
 }
 
-}  // namespace
+/// How far an orbit bends away from the line of a Gaussian in positions.
+struct LineOfPositions {
+  double deviation = 0;  ///< standard deviation along the track
+  double bend = 0;       ///< T^2 / (2 r) at three such standard deviations
+  double radial = 0;     ///< standard deviation along R if that along T is known
+};
 
-InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
+LineOfPositions line_of_positions(const Covariance& covariance, const Vector<double>& state) {
+  const Eigen::Vector3d position = state.head(3);
+  const Eigen::Vector3d velocity = state.tail(3);
+  const double distance = position.norm();
+  const Eigen::Vector3d r = position / distance;
+  const Eigen::Vector3d t = (velocity - r * r.dot(velocity)).normalized();
+  Matrix<double> axes = Matrix<double>::Zero(2, 6);
+  axes.row(0).head(3) = t.transpose();
+  axes.row(1).head(3) = r.transpose();
+  const Matrix<double> along = covariance.mapped(axes).matrix();
+  const double common = along(0, 0) > 0 ? along(0, 1) * along(0, 1) / along(0, 0) : 0;
+  constexpr double far_out = 3;
+  return {std::sqrt(along(0, 0)), far_out * far_out * along(0, 0) / (2 * distance),
+          std::sqrt(std::max(0.0, along(1, 1) - common))};
+}
+
+/// The length beside which the scene asks where spacecraft are; 0 without one.
+double asked_length_m(const UncertaintySettings& settings) {
+  double length = 0;
+  if (settings.collision) length = settings.collision->radius_m;
+  if (settings.safety) length = std::max(length, settings.safety->keep_apart_m);
+  return length;
+}
+
+/// Makes a start Gaussian in elements where the scene wants this or the orbit bends too much.
+/// `covariance` is that of the state, which the errors of a burn do not belong to.
+void choose_coordinates(const Scene& scene, const Covariance& covariance, InitialState& start) {
+  const UncertaintySettings& settings = *scene.uncertainty;
+  if (settings.gaussian_in == GaussianIn::positions || covariance.rank() == 0) return;
+  const Vector<double> state = as_vector(scene.nominal) + start.mean;
+  const MetricUnits units = metric_units(scene);
+  const LineOfPositions line = line_of_positions(covariance, state);
+  const bool is_automatic = settings.gaussian_in == GaussianIn::automatic;
+  // The comparison is written so that NaN leaves positions, whose errors are told elsewhere.
+  constexpr double small = 0.1;
+  if (is_automatic &&
+      !(line.bend > small * std::hypot(line.radial, asked_length_m(settings) / units.length_m))) {
+    return;
+  }
+  SixNumbers<double> numbers{};
+  std::copy_n(state.data(), 6, numbers.begin());
+  try {
+    start.straight.emplace(CanonicalChart<double>(ChartName::poincare, numbers, canonical_mu),
+                           numbers);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    if (is_automatic) return;
+    throw Error(ErrorKind::scene,
+                fmt::format("uncertainty.gaussian_in: not possible for the {}, got \"elements\", "
+                            "must be \"positions\" or \"auto\": {}",
+                            start.name, error.what()));
+  }
+  if (!is_automatic) return;
+  start.why_straight = fmt::format(
+      "The start of the {} is taken as Gaussian in elements, not in positions: it is uncertain by "
+      "{:.3g} m along its track, and within three times that the orbit bends {:.3g} m away from a "
+      "straight line, beside {:.3g} m that are uncertain across it.",
+      start.name, line.deviation * units.length_m, line.bend * units.length_m,
+      line.radial * units.length_m);
+}
+
+/// A deputy at a start, in positions.
+InitialState deputy_in_positions(const Scene& scene, const RelativeState& start) {
   const UncertaintySettings& settings = *scene.uncertainty;
   const MetricUnits units = metric_units(scene);
   InitialState result{
@@ -31,6 +105,19 @@ InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
     result.covariance = canonical_covariance(settings.deputy->covariance, settings.deputy->frame,
                                              as_vector(scene.nominal) + result.mean, units);
   }
+  return result;
+}
+
+}  // namespace
+
+Vector<double> InitialState::deviation(const Vector<double>& linear) const {
+  if (!straight) return mean + linear;
+  return mean + (*straight)(linear);
+}
+
+InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
+  InitialState result = deputy_in_positions(scene, start);
+  choose_coordinates(scene, result.covariance, result);
   return result;
 }
 
@@ -55,6 +142,7 @@ UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState&
                                     ? start.covariance.factor()
                                     : Cumulants(Vector<double>::Zero(6), start.covariance).axes();
   craft.factor.leftCols(factor.cols()) = factor;
+  craft.straight = start.straight;
   return craft;
 }
 
@@ -68,7 +156,9 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share) 
     result.back().covariance =
         canonical_covariance(settings.chief->covariance, settings.chief->frame, chief, units);
   }
-  if (scene.deputy) result.push_back(initial_deputy(scene, scene.deputy->start));
+  if (scene.deputy) result.push_back(deputy_in_positions(scene, scene.deputy->start));
+  std::vector<Covariance> of_states;
+  for (const InitialState& start : result) of_states.push_back(start.covariance);
   if (settings.burn) {
     InitialState& burning = result.back();
     const Vector<double> state = chief + burning.mean;
@@ -79,6 +169,9 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share) 
     change.tail(3) = (1 - burn_share) * settings.burn->velocity_change_m_s;
     const ChiefFrame own(std::span(state.data(), 6), units, settings.burn->frame);
     burning.mean -= deviations_of_relative_states(own) * change;
+  }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    choose_coordinates(scene, of_states[i], result[i]);
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,19 @@ namespace hamjet {
 struct InitialState {
   std::string name;
   Vector<double> mean;    ///< canonical deviation from the chief's nominal
-  Covariance covariance;  ///< covariance of canonical deviations
+  Covariance covariance;  ///< covariance of linear canonical deviations from the mean
+  /// For a start that is Gaussian in elements: the deviations to which linear ones belong.
+  std::optional<StraightDeviations> straight = {};
+  std::string why_straight = {};  ///< why `auto` chose elements, as a sentence for people
+
+  /// The deviation from the chief's nominal that belongs to a linear one from the mean.
+  Vector<double> deviation(const Vector<double>& linear) const;
 };
 
 /// The distributions of the chief and of the deputy, as far as the scene has them, with the errors
 /// of the burn in the one that it belongs to. If a burn ended early, only a fraction was done: the
-/// rest of its velocity change is missing, and its errors are smaller in proportion.
+/// rest of its velocity change is missing, and its errors are smaller in proportion. Throws
+/// Error(scene) for a start that is to be Gaussian in elements and has none.
 std::vector<InitialState> initial_states(const Scene& scene, double burn_share = 1);
 
 /// A spacecraft relative to the chief in the frame of the scene's deputy, with the uncertainty of

@@ -85,17 +85,26 @@ std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
                                         const InitialState& start) {
   const int order = map[0].order();
   const bool is_moved = (start.mean.array() != 0).any();
+  const SpacePointer space = map[0].space_pointer();
+  // Polynomials in linear deviations from the mean, up to the order of their space.
+  const auto in_linear = [&](std::vector<Series<double>> polynomials) {
+    if (!start.straight) return polynomials;
+    return compose(polynomials, start.straight->series(polynomials[0].space_pointer()));
+  };
   std::vector<Cumulants> result;
   std::vector<Series<double>> whole;
-  if (!is_moved) whole = in_standard_normals(map, start.covariance);
+  if (!is_moved) whole = in_standard_normals(in_linear(map), start.covariance);
+  const Covariance itself = Covariance::of_factor(Matrix<double>::Identity(6, 6));
   for (int n = 1; n <= order; ++n) {
     if (is_moved) {
       // A lower order drops terms before the mean is inserted.
-      const SpacePointer space = SeriesSpace::create(map[0].space().variables(), n);
+      const SpacePointer low = SeriesSpace::create(space->variables(), n);
       std::vector<Series<double>> lower;
-      for (const Series<double>& component : map) lower.push_back(in_space(component, space));
-      result.push_back(
-          Cumulants::of_polynomials(in_standard_normals(lower, start.covariance, start.mean)));
+      for (const Series<double>& component : map) lower.push_back(in_space(component, low));
+      if (start.straight) lower = in_linear(in_standard_normals(lower, itself, start.mean));
+      result.push_back(Cumulants::of_polynomials(
+          start.straight ? in_standard_normals(lower, start.covariance)
+                         : in_standard_normals(lower, start.covariance, start.mean)));
     } else {
       result.push_back(Cumulants::of_polynomials(whole, n));
     }

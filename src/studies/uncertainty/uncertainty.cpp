@@ -46,7 +46,7 @@ class Flights {
     Vector<double> numbers(factor.cols());
     for (std::size_t k = 0; k < samples_; ++k) {
       for (double& number : numbers) number = normals();
-      const Vector<double> deviation = start.mean + factor * numbers;
+      const Vector<double> deviation = start.deviation(factor * numbers);
       for (std::size_t i = 0; i < 6; ++i) {
         states_.push_back(scene.nominal[i] + deviation[static_cast<Eigen::Index>(i)]);
       }
@@ -105,7 +105,10 @@ std::vector<std::optional<Cumulants>> moments_through(const DeputyFlow& flow, in
   const std::vector<int> of_factor(nodes.begin(), nodes.begin() + factor.cols());
   const NormalQuadrature rule = product_quadrature(of_factor);
   const auto count = static_cast<std::size_t>(rule.weights.size());
-  const Matrix<double> initial = (factor * rule.points).colwise() + start.mean;
+  Matrix<double> initial = factor * rule.points;
+  for (Eigen::Index k = 0; k < initial.cols(); ++k) {
+    initial.col(k) = start.deviation(initial.col(k));
+  }
   std::vector<int> degrees(static_cast<std::size_t>(order));
   std::iota(degrees.begin(), degrees.end(), 1);
   std::vector<Matrix<double>> points(degrees.size(), Matrix<double>(6, initial.cols()));
@@ -175,8 +178,8 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   const int order = jet[0].order();
   UncertainState state;
   state.name = start.name;
-  state.cartesian = moments_by_order(without_constants(own),
-                                     {start.name, Vector<double>::Zero(6), start.covariance});
+  state.cartesian = moments_by_order(without_constants(own), {start.name, Vector<double>::Zero(6),
+                                                              start.covariance, start.straight});
   told_of_start(state.cartesian, start);
   if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
@@ -263,6 +266,9 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   result.scene = scene;
   const MetricUnits units = metric_units(scene);
   const std::vector<InitialState> starts = initial_states(scene);
+  for (const InitialState& start : starts) {
+    if (!start.why_straight.empty()) result.start_notes.push_back(start.why_straight);
+  }
   const ComputedProblem problem = make_problem(scene);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;

@@ -73,6 +73,8 @@ struct UncertaintyResult {
   Scene scene;  ///< with `uncertainty`
   std::string integrator;
   ChosenCoordinates coordinates;  ///< those of the end; not automatic
+  /// Why starts are Gaussian in elements where the scene leaves the choice open, as sentences.
+  std::vector<std::string> start_notes;
   std::vector<UncertaintyAt> points;
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   std::optional<CollisionResult> collision;          ///< if the scene asks for it

@@ -339,7 +339,15 @@ TEST_F(Collision, WarnsOfDeviationsAlongTheTrackThatLeaveTheOrbit) {
     const std::size_t place = text.rfind("[5, 30, 5]");
     text.replace(place, 10, fmt::format("[5, {}, 5]", along));
     write("scene.toml", text);
-    const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "-o", "out"}).out);
+    const std::string elements = in_one_line(succeed({"uncertainty", "scene.toml"}).out);
+    EXPECT_EQ(elements.find("not to be trusted"), std::string::npos) << elements;
+    EXPECT_EQ(elements.find("The start of the deputy is taken as Gaussian in elements") !=
+                  std::string::npos,
+              warns)
+        << elements;
+    const std::string out = in_one_line(succeed({"uncertainty", "scene.toml", "--set",
+                                                 "uncertainty.gaussian_in=positions", "-o", "out"})
+                                            .out);
     EXPECT_EQ(out.find("warning: the deputy is uncertain by 1e+05 m along its track") !=
                   std::string::npos,
               warns)

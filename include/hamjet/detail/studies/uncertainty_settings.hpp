@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hamjet/charts/jet_coordinates.hpp"
@@ -11,6 +13,15 @@
 #include "hamjet/uncertainty/covariance.hpp"
 
 namespace hamjet {
+
+/// The coordinates in which the states at the start are Gaussian.
+enum class GaussianIn {
+  automatic,  ///< elements where the orbit bends away from a Gaussian in positions, else positions
+  positions,  ///< positions and velocities
+  elements,   ///< Poincare's elements, with the covariance that their linear map makes
+};
+inline constexpr std::array<std::string_view, 3> gaussian_in_names = {"auto", "positions",
+                                                                      "elements"};
 
 /// How accurately the state of a spacecraft at the start is known.
 struct StateUncertainty {
@@ -73,6 +84,7 @@ struct UncertaintySettings {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< frame of the results, at the chief
   std::optional<StateUncertainty> chief;              ///< absent if the state is known exactly
   std::optional<StateUncertainty> deputy;
+  GaussianIn gaussian_in = GaussianIn::automatic;
   /// Burn of the deputy, or of the chief in a scene without one.
   std::optional<BurnUncertainty> burn;
   std::vector<double> times;  ///< in canonical units, moving away from 0; none is 0
