@@ -14,10 +14,9 @@
 // Thrust of least energy beside what shares nothing with it: a closed form with quadrature, other
 // controls, and shooting.
 
-namespace hamjet {
+namespace hamjet::thrusted {
 namespace {
 
-using namespace thrusted;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -276,4 +275,4 @@ TEST(EnergyOptimalShootingAtLength, TransfersAreThoseOfShooting) {
 }
 
 }  // namespace
-}  // namespace hamjet
+}  // namespace hamjet::thrusted

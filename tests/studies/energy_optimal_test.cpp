@@ -8,10 +8,8 @@
 #include "energy_optimal_flights.hpp"
 #include "hamjet/studies/transfer.hpp"
 
-namespace hamjet {
+namespace hamjet::thrusted {
 namespace {
-
-using namespace thrusted;
 
 // A program of the test's own flies the costates from the start to the end that the scene wants,
 // and finds the same energy.
@@ -155,4 +153,4 @@ TEST(EnergyOptimal, AThrustThatIsNotCorrectedIsSaid) {
 }
 
 }  // namespace
-}  // namespace hamjet
+}  // namespace hamjet::thrusted

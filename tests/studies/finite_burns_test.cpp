@@ -14,7 +14,7 @@
 // Burns in place of impulses. Chiefs are on Kepler orbits in canonical units of 7000 km, so that a
 // test's own program can fly them.
 
-namespace hamjet {
+namespace hamjet::burning {
 namespace {
 
 const double canonical_s = std::sqrt(7000.0 * 7000 * 7000 / 398600.4405);
@@ -371,4 +371,4 @@ TEST(FiniteBurns, DerivativesAreThoseOfFlights) {
 }
 
 }  // namespace
-}  // namespace hamjet
+}  // namespace hamjet::burning
