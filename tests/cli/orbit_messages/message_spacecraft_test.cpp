@@ -11,7 +11,7 @@ namespace {
 
 using std::string;
 
-const string message = R"(CCSDS_OPM_VERS = 3.0
+const string cube_message = R"(CCSDS_OPM_VERS = 3.0
 CREATION_DATE = 2026-03-01T00:00:00
 ORIGINATOR = HAND
 OBJECT_NAME = CUBE
@@ -33,7 +33,7 @@ DRAG_AREA = 0.03 [m**2]
 DRAG_COEFF = 2.4
 )";
 
-const string scene = R"(schema = 1
+const string cube_scene = R"(schema = 1
 [system]
 model = "earth"
 gravity_degree = 2
@@ -58,8 +58,8 @@ class MessageSpacecraft : public CommandTest {
 };
 
 TEST_F(MessageSpacecraft, IsTheSpacecraftOfTheScene) {
-  write("cube.opm", message);
-  const Json summary = summary_of(scene);
+  write("cube.opm", cube_message);
+  const Json summary = summary_of(cube_scene);
   const Json& earth = summary["system"]["earth"];
   EXPECT_DOUBLE_EQ(earth["drag_m2_kg"], 2.4 * 0.03 / 4);
   EXPECT_DOUBLE_EQ(earth["radiation_m2_kg"], 1.2 * 0.04 / 4);
@@ -77,28 +77,28 @@ TEST_F(MessageSpacecraft, IsTheSpacecraftOfTheScene) {
 }
 
 TEST_F(MessageSpacecraft, ATableOfTheSceneGoesBeforeIt) {
-  write("cube.opm", message);
-  const Json summary = summary_of(scene + "[spacecraft]\nmass_kg = 5\narea_m2 = 0.1\n");
+  write("cube.opm", cube_message);
+  const Json summary = summary_of(cube_scene + "[spacecraft]\nmass_kg = 5\narea_m2 = 0.1\n");
   EXPECT_DOUBLE_EQ(summary["system"]["earth"]["drag_m2_kg"], 2.2 * 0.1 / 5);
   EXPECT_EQ(summary["nominal_file"]["unused"], Json({"spacecraft parameters"}));
   EXPECT_EQ(*io::read_opm("a", content(directory_ / "out/gauss8/start.opm")).spacecraft.mass_kg, 5);
 }
 
 TEST_F(MessageSpacecraft, WithoutCoefficientsTheUsualOnes) {
-  write("cube.opm", changed(changed(message, "DRAG_COEFF = 2.4\n", ""), "SOLAR_RAD_COEFF = 1.2",
-                            "SOLAR_RAD_COEFF = 0"));
-  const Json earth = summary_of(scene)["system"]["earth"];
+  write("cube.opm", changed(changed(cube_message, "DRAG_COEFF = 2.4\n", ""),
+                            "SOLAR_RAD_COEFF = 1.2", "SOLAR_RAD_COEFF = 0"));
+  const Json earth = summary_of(cube_scene)["system"]["earth"];
   EXPECT_DOUBLE_EQ(earth["drag_m2_kg"], 2.2 * 0.03 / 4);
   EXPECT_EQ(earth["radiation_m2_kg"], 0);
 }
 
 TEST_F(MessageSpacecraft, OfADeputy) {
-  write("cube.opm", message);
-  write("other.opm", changed(changed(message, "Y = 0 [km]", "Y = 0.1 [km]"), "DRAG_AREA = 0.03",
-                             "DRAG_AREA = 0.06"));
-  write("pair.toml", changed(scene, "[jet]", "[deputy]\nopm_file = \"other.opm\"\n[jet]"));
+  write("cube.opm", cube_message);
+  write("other.opm", changed(changed(cube_message, "Y = 0 [km]", "Y = 0.1 [km]"),
+                             "DRAG_AREA = 0.03", "DRAG_AREA = 0.06"));
+  write("pair.toml", changed(cube_scene, "[jet]", "[deputy]\nopm_file = \"other.opm\"\n[jet]"));
   succeed({"motion", "pair.toml", "-q", "-o", "with"});
-  write("other.opm", changed(message, "Y = 0 [km]", "Y = 0.1 [km]"));
+  write("other.opm", changed(cube_message, "Y = 0 [km]", "Y = 0.1 [km]"));
   succeed({"motion", "pair.toml", "-q", "-o", "without"});
   const auto end_m = [&](const string& folder) {
     const Table table = read_table(directory_ / folder / "motion.csv");
@@ -112,14 +112,14 @@ TEST_F(MessageSpacecraft, OfADeputy) {
 }
 
 TEST_F(MessageSpacecraft, MistakesAreOneLine) {
-  write("cube.toml", scene);
-  write("cube.opm", changed(message, "MASS = 4 [kg]\n", ""));
+  write("cube.toml", cube_scene);
+  write("cube.opm", changed(cube_message, "MASS = 4 [kg]\n", ""));
   expect_error({"check", "cube.toml"}, 3, {"cube.toml:5", "atmosphere", "MASS and DRAG_AREA"});
-  write("cube.opm", changed(message, "SOLAR_RAD_AREA = 0.04 [m**2]\n", ""));
+  write("cube.opm", changed(cube_message, "SOLAR_RAD_AREA = 0.04 [m**2]\n", ""));
   expect_error({"check", "cube.toml"}, 3, {"cube.toml:6", "radiation", "SOLAR_RAD_AREA"});
-  write("cube.opm", changed(message, "MASS = 4", "MASS = -4"));
+  write("cube.opm", changed(cube_message, "MASS = 4", "MASS = -4"));
   expect_error({"check", "cube.toml"}, 3, {"cube.toml:8", "opm_file", "a mass of -4 kg"});
-  write("cube.opm", changed(message, "DRAG_AREA = 0.03", "DRAG_AREA = 300"));
+  write("cube.opm", changed(cube_message, "DRAG_AREA = 0.03", "DRAG_AREA = 300"));
   const string said = in_one_line(hamjet({"check", "cube.toml"}).err);
   EXPECT_NE(said.find("is the area in cm^2"), string::npos) << said;
 }
