@@ -234,7 +234,7 @@ std::vector<SceneKey> surface_force_keys() {
        "whether the Sun's light presses on a spacecraft", owner},
       {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
        absent::value(name_of(RadiationSettings().shadow)),
-       "which light the Earth keeps off: `conical` has umbra and penumbra", owner}};
+       "the shadow of the Earth: `conical` has umbra and penumbra", owner}};
 }
 
 void read_surface_forces(const TableReader& root, SystemSettings& settings) {
