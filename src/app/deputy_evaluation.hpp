@@ -25,8 +25,8 @@ struct EvaluatedScene {
   CanonicalFactors told;          ///< see told_factors
   ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
-  /// Of order 2 in curved coordinates, the flow to the third degree, by which the estimate knows
-  /// what degree 2 leaves out; none of a stored jet.
+  /// The flow to the third degree, from which the estimate knows what degree 2 leaves out; only for
+  /// order 2 in curved coordinates, and not for a stored jet.
   std::shared_ptr<const DeputyFlow> further;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.

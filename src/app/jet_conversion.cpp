@@ -105,7 +105,7 @@ ConvertedJet converted_jet(const io::StoredJet& stored, const CoordinatesAtEnds&
   const bool is_to_flow_box = coordinates == JetCoordinates::flow_box;
   if (!is_to_flow_box) require_charts(coordinates, caller);
   if (!is_orbit(stored.model) || stored.components.size() != 6 || stored.variables.size() != 6) {
-    refuse(fmt::format("{}: {}: coordinates are of orbits in all six variables",
+    refuse(fmt::format("{}: {}: only jets of orbits in all six variables have coordinates",
                        argument(caller, "coordinates", name_of(coordinates)), name));
   }
   const CoordinatesAtEnds from = stored.flow_box ? JetCoordinates::cartesian : stored.coordinates;

@@ -24,15 +24,15 @@ const TableDescription& collision_table() {
                   "these cut"),
        {"event", form::choice({collision_event_names.begin(), collision_event_names.end()}),
         absent::value(collision_event_names[0]),
-        "what counts: to be nearer at any time of the window; or to become nearer, for which those "
-        "that are so when it begins count only once they come back"},
+        "what counts as a collision: `nearer`, to be nearer than the radius at any time of the "
+        "window; `entry`, to become so, which a pair that begins so must first leave"},
        {"sampling",
         form::choice({collision_sampling_names.begin(), collision_sampling_names.end()}),
         absent::value(collision_sampling_names[0]),
         "plain: deviations as they are distributed; entries: weighted ones whose linear path "
         "enters a sphere somewhat larger; automatic: entries where they can be drawn"},
        {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
-        "of the polynomials"},
+        "number of samples of the polynomials"},
        {"confidence", form::between(0.5, 0.999999), absent::value(preset.confidence),
         "confidence of the interval that is given"}},
       "Whether chief and deputy may hit each other; both have polynomials of their own."};
@@ -83,8 +83,8 @@ double read_nearness(const TableReader& table, std::string_view key, const Scene
                                 length_m, largest_radius * distance_m));
   }
   if (length_m < smallest_radius * distance_m) {
-    table.fail(key, fmt::format("too small, got {:.6g}, must be {:.3g} or more, what the motion is "
-                                "told to",
+    table.fail(key, fmt::format("too small, got {:.6g}, must be {:.3g} or more, to which the "
+                                "motion is known",
                                 length_m, smallest_radius * distance_m));
   }
   return length_m;

@@ -49,7 +49,7 @@ const TableDescription& energy_conservation_table() {
       {{"method", form::choice(energy_conserving_method_names()), absent::refused(),
         "the method, in its energy-conserving form"},
        {"first_step_canonical", form::positive(), absent::other("`first_step_s`"),
-        "at most the duration; the other steps follow from the energy"},
+        "the first step, at most the duration; the other steps follow from the energy"},
        {"first_step_s", form::positive(), absent::other("`first_step_canonical`"), "the same"},
        {"duration_s", form::number(), other_duration, "not 0; negative is backwards"},
        {"duration_canonical", form::number(), other_duration, "the same"},

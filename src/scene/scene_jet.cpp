@@ -122,7 +122,8 @@ namespace {
 const std::string& help_of_variables() {
   static const std::string text = [] {
     std::string words =
-        "those to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model `own` "
+        "the variables to expand in: `x` to `pz`, `q` and `p`, or `q1`, ..., `p1`, ...; of a model "
+        "`own` "
         "by "
         "its own names and parameters, without choice the states of a vector field; about the real "
         "Earth also";

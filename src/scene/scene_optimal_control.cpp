@@ -81,7 +81,7 @@ const TableDescription& optimal_control_table() {
   const auto states = form::words("array of a number for each state", form::array(form::number()));
   static const OptimalControlStudy preset;
   static const TableDescription table = {
-      {{"problem", form::choice(control_model_names()), absent::refused(), "which one"},
+      {{"problem", form::choice(control_model_names()), absent::refused(), "which problem"},
        {"method", form::choice(discretization_names()), absent::refused(), "the discretisation"},
        // Costs are proportional to the inverse third power of the duration, and binary64 must hold
        // them.

@@ -33,7 +33,7 @@ void require_quantity(const TableReader& table, std::string_view key, const std:
                               fmt::join(right, ", ")));
 }
 
-/// Refuses a system whose flow keeps no energy, or is another one at every start.
+/// Refuses a system whose flow keeps no energy, or depends on the time at which it starts.
 void require_autonomous(const TableReader& periodic, const Scene& scene) {
   if (scene.system.model == SystemModel::earth) {
     periodic.fail("",

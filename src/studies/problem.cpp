@@ -9,7 +9,7 @@
 #include "descriptions/method_description.hpp"
 #include "descriptions/system_description.hpp"
 #include "hamjet/studies/propagation.hpp"
-#include "memory/needed_memory.hpp"
+#include "memory_use/needed_memory.hpp"
 
 namespace hamjet {
 

@@ -181,8 +181,8 @@ EntrySampler::EntrySampler(const RelativePaths& paths, double radius, bool begin
   if (!is_empty()) {
     const double entering = std::exp(entering_.log_mass() - largest);
     share_entering_ = entering / (entering + std::exp(inside_.log_mass() - largest));
-    // Few of these paths come back, and each one that does has a weight in which this share is
-    // divided out.
+    // The share of draws for paths that begin inside. Few of these come back; the weight of each
+    // one that does is divided by this share.
     constexpr double share_of_late = 0.05;
     if (begin_counts_late && !entering_.is_empty()) {
       share_entering_ = std::max(share_entering_, 1 - share_of_late);

@@ -284,7 +284,7 @@ TableView bounded_table(const BoundedFormation& formation) {
   table.add_scalar("revolutions", "",
                    "the number of revolutions of the window over which all deputies are flown",
                    formation.revolutions);
-  table.add_scalar("nodal_period_s", "s", "from node to node at the chief's start",
+  table.add_scalar("nodal_period_s", "s", "the nodal period at the chief's start",
                    formation.nodal_period * unit);
   table.add_scalar("mean_nodal_period_s", "s", "the chief's mean nodal period over the window",
                    formation.mean_period * unit);
@@ -344,7 +344,7 @@ TableView bounded_table(const BoundedFormation& formation) {
       const DeputyComponent& component = components_of(form)[i];
       table.add_if(is_there, fmt::format("{}.{}", form_key(form), component.name),
                    std::string(unit_of_component(component.name)),
-                   fmt::format("of the start, as a scene's deputy has it: {}", component.help),
+                   fmt::format("the deputy's start as a scene has it: {}", component.help),
                    [=](const BoundedDeputy& deputy) { return deputy.forms[f][i]; });
     }
   }

@@ -138,15 +138,16 @@ TableView frozen_orbit_table(const FrozenOrbitStudy& study) {
                    study.is_inside_body());
   table.add_scalar("nodal_period_s", "s", "the time from section to section",
                    study.nodal_period * units.time_s);
-  table.add_scalar("node_deg_per_revolution", "deg a revolution", "the drift of its node",
-                   study.node * degrees);
+  table.add_scalar("node_deg_per_revolution", "deg a revolution",
+                   "the drift of the frozen orbit's node", study.node * degrees);
   table.add_scalar("residual", "",
                    "by how much a revolution moves the frozen orbit, in extended precision",
                    study.residual);
   table.add_scalar("iterations", "", "the number of iterations of Newton's method",
                    study.iterations);
   table.add_scalar("trace", "", "the sum of the two multipliers of the frozen orbit", study.trace);
-  table.add_scalar("trace_less_2", "", "that sum less 2; stable between -4 and 0",
+  table.add_scalar("trace_less_2", "",
+                   "the sum of the two multipliers less 2; stable between -4 and 0",
                    study.trace_less_2);
   table.add_scalars("multiplier", "", "one of the two multipliers, its real and imaginary parts",
                     study.multiplier());

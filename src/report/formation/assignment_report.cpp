@@ -227,9 +227,10 @@ TableView costs_table(const AssignmentResult& result) {
   table.leave_rows_out_of_json();
   table.add("deputy", "", "the number of the deputy, from 0", &Row::deputy);
   table.add("slot", "", "the number of the slot, from 0", &Row::slot);
-  table.add_if(has_time, "time_canonical", "", "of the transfer, in the canonical unit of time",
+  table.add_if(has_time, "time_canonical", "",
+               "the duration of the transfer, in the canonical unit of time",
                [&](const Row& row) { return told_time(scene, times[*row.cost.time]); });
-  table.add_if(has_time, "time_s", "s", "of the transfer",
+  table.add_if(has_time, "time_s", "s", "the duration of the transfer",
                [&](const Row& row) { return times[*row.cost.time] * scene.units.time_s; });
   table.add_if(has_time, "total_change_m_s", "m/s",
                "the sum of the magnitudes of both velocity changes",
@@ -252,9 +253,11 @@ TableView pairs_table(const AssignmentResult& result) {
   table.add("deputy", "", "the number of the deputy, from 0", &DeputyPair::first);
   table.add("other_deputy", "", "the number of the other deputy of the pair, from 0",
             &DeputyPair::second);
-  table.add("time_canonical", "", "then, in the scene's canonical unit of time",
+  table.add("time_canonical", "",
+            "the time at which they are nearest, in the scene's canonical unit of time",
             [&](const DeputyPair& pair) { return told_time(result.scene, pair.time); });
-  table.add("time_s", "s", "then", [=](const DeputyPair& pair) { return pair.time * unit; });
+  table.add("time_s", "s", "the time at which they are nearest",
+            [=](const DeputyPair& pair) { return pair.time * unit; });
   table.add("least_separation_m", "m", "the least separation of the two deputies",
             &DeputyPair::separation_m);
   return std::move(table).view(result.pairs, {result.pairs.size()});

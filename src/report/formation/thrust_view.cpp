@@ -74,7 +74,8 @@ TableView energy_optimal_table(const TransferResult& result) {
   ResultTable<EnergyOptimalTransfer> table(
       "energy_optimal", "/energy_optimal_thrust", {"times"},
       "Thrust that lasts and takes the least integral of |u|^2 / 2, u its acceleration.");
-  table.add("time_s", "s", "of the transfer", [=](Thrusted one) { return one.time * unit; });
+  table.add("time_s", "s", "the duration of the transfer",
+            [=](Thrusted one) { return one.time * unit; });
   table.add(
       "condition", "", "the condition of the linear part that is inverted, of states by costates",
       [](Thrusted one) { return one.condition > 0 ? std::optional(one.condition) : std::nullopt; });
@@ -104,7 +105,8 @@ TableView energy_optimal_table(const TransferResult& result) {
   };
   table.add("refined_miss_m", "m", "the miss of the answer that flying corrected",
             of_refined(&EnergyOptimalAnswer::miss_m));
-  table.add("refined_velocity_miss_m_s", "m/s", "likewise",
+  table.add("refined_velocity_miss_m_s", "m/s",
+            "the difference of that answer from the wanted velocity",
             of_refined(&EnergyOptimalAnswer::velocity_miss_m_s));
   table.add_array(
       "costates", {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
@@ -112,7 +114,7 @@ TableView energy_optimal_table(const TransferResult& result) {
       of_refined(&EnergyOptimalAnswer::costates));
   table.add("refinement_flights", "", "the number of flights that the correction took",
             &EnergyOptimalTransfer::refinement_flights);
-  table.add("failure", "", "why there is none", &EnergyOptimalTransfer::failure);
+  table.add("failure", "", "the reason why there is no answer", &EnergyOptimalTransfer::failure);
   const auto rows = result.thrust ? result.thrust->transfers : std::vector<EnergyOptimalTransfer>();
   return std::move(table).view(rows, {rows.size()});
 }

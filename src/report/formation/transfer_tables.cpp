@@ -159,9 +159,11 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
   ResultTable<TransferPoint> table("transfers", "", {"times"},
                                    "Velocity changes of two impulses, one row a transfer time.");
   table.leave_rows_out_of_json();
-  table.add("time_canonical", "", "of the transfer, in the scene's canonical unit of time",
+  table.add("time_canonical", "",
+            "the duration of the transfer, in the scene's canonical unit of time",
             [&scene](Point point) { return told_time(scene, point.time); });
-  table.add("time_s", "s", "of the transfer", [=](Point point) { return point.time * unit; });
+  table.add("time_s", "s", "the duration of the transfer",
+            [=](Point point) { return point.time * unit; });
   table.add_if(
       has_kind, "kind", "",
       "the generating function used; nothing where no kind exists, or in other coordinates",
@@ -230,7 +232,7 @@ TableView singular_times_table(const TransferResult& result) {
   ResultTable<SingularTime> table("singular_times", "", {"singular_times"},
                                   "Times at which a generating function does not exist.");
   table.leave_rows_out_of_json();
-  table.add("kind", "", "of generating function; qqq-qqq is F1",
+  table.add("kind", "", "the kind of generating function; qqq-qqq is F1",
             [](Singular singular) { return singular.kind.name(); });
   table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
             [&](Singular singular) { return told_time(result.scene, singular.time); });
@@ -343,7 +345,8 @@ TableView least_by_time_table(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   ResultTable<LeastChange> table("least_by_time", "/optimal_impulses", {"least_by_time"},
                                  "What optimal impulses cost in some of the transfer times.");
-  table.add("time_s", "s", "of the transfer", [=](Least one) { return one.time * unit; });
+  table.add("time_s", "s", "the duration of the transfer",
+            [=](Least one) { return one.time * unit; });
   table.add("linear_change_m_s", "m/s",
             "the least sum of velocity changes in the linear theory about the chief",
             &LeastChange::change_m_s);
@@ -363,7 +366,8 @@ TableView total_by_time_table(const TransferResult& result) {
   const double unit = result.scene.units.time_s;
   ResultTable<WaypointPlan> table("total_by_time", "/waypoints", {"total_by_time"},
                                   "What the way through the waypoints costs by transfer time.");
-  table.add("time_s", "s", "of the whole way", [=](Plan plan) { return plan.duration * unit; });
+  table.add("time_s", "s", "the duration of the whole way",
+            [=](Plan plan) { return plan.duration * unit; });
   table.add("total_change_m_s", "m/s", "the sum of the magnitudes of its impulses",
             &WaypointPlan::total_change_m_s);
   table.add("forbidden", "", "what of the way the scene does not allow", &WaypointPlan::forbidden);

@@ -169,7 +169,7 @@ std::vector<SceneKey> epoch_keys() {
     keys.push_back({key.name,
                     form_of_epoch(),
                     absent::other("another one, for the model earth"),
-                    "of the start",
+                    "epoch of the start",
                     {orbits}});
   }
   keys.push_back({"axes",

@@ -248,13 +248,12 @@ const TableDescription& spacecraft_table() {
 
 std::vector<SceneKey> surface_force_keys() {
   const std::vector<std::string_view> owner = {"earth"};
-  return joined<SceneKey>(
-      {atmosphere_keys(),
-       {{"radiation", form::boolean(), absent::value(false),
-         "whether the Sun's light presses on a spacecraft", owner},
-        {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
-         absent::value(name_of(RadiationSettings().shadow)),
-         "which light the Earth keeps off: `conical` has umbra and penumbra", owner}}});
+  return joined<SceneKey>({atmosphere_keys(),
+                           {{"radiation", form::boolean(), absent::value(false),
+                             "whether the Sun's light presses on a spacecraft", owner},
+                            {"shadow", form::choice({shadow_names.begin(), shadow_names.end()}),
+                             absent::value(name_of(RadiationSettings().shadow)),
+                             "the shadow of the Earth: `conical` has umbra and penumbra", owner}}});
 }
 
 void read_surface_forces(const TableReader& root, SystemSettings& settings) {

@@ -52,7 +52,7 @@ std::vector<SceneKey> zonal_gravity_keys() {
       {"gravity_epoch", form_of_epoch(), absent::other("that of the nominal's start"),
        "epoch for a file's coefficients that vary with time", owner},
       {"leave_out_C10", form::boolean(), absent::value(false),
-       "of a file whose origin is not the centre of mass", both}};
+       "whether to leave out C(1,0) of a file whose origin is not the centre of mass", both}};
   // |J| <= 1 is far beyond every planet (Saturn, the most oblate, has J2 = 0.016); a larger number
   // was meant in other units.
   for (const std::string_view key : zonal_keys) {

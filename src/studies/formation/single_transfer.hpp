@@ -17,10 +17,10 @@ MetricUnits metric_units(const Scene& scene);
 /// Rounding of the positions of two flights, in canonical units: that of the end, and that of the
 /// chief's start, grown with the jet's linear part.
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet);
-/// This rounding from the linear part alone, between two states of the chief.
+/// The same rounding from the linear part of the jet alone, between two states of the chief.
 double rounding_of_flights(const Matrix<double>& linear, std::span<const double> start,
                            std::span<const double> end, int momentum_exponent);
-/// This rounding from the linear flow of a time, which is integrated.
+/// The same rounding after a time; the linear flow up to it is integrated here.
 double rounding_of_flights(const ComputedProblem& problem, double time);
 
 /// The two-point problems of one transfer time, solved by a generating function of the jet or, if
