@@ -68,9 +68,9 @@ double period_s(const Scene& scene) {
 }
 
 /// Flights of spacecraft with their own coefficients, which know of no other one.
-class OwnFlight {
+class FlightOfUnlike {
  public:
-  OwnFlight(Scene scene, double drag_m2_kg) : scene_(std::move(scene)) {
+  FlightOfUnlike(Scene scene, double drag_m2_kg) : scene_(std::move(scene)) {
     scene_.deputy.reset();
     scene_.system.earth->drag_m2_kg = drag_m2_kg;
     system_ = SharedSystem(make_system(scene_));
@@ -86,8 +86,9 @@ class OwnFlight {
 
 /// The state, relative to the chief, at the end of a flight with impulses.
 RelativeState flown_end(const Scene& scene, const std::vector<Impulse>& impulses, double end) {
-  const OwnFlight chief(scene, scene.system.earth->drag_m2_kg);
-  const OwnFlight deputy(scene, scene.deputy->drag_m2_kg.value_or(scene.system.earth->drag_m2_kg));
+  const FlightOfUnlike chief(scene, scene.system.earth->drag_m2_kg);
+  const FlightOfUnlike deputy(scene,
+                              scene.deputy->drag_m2_kg.value_or(scene.system.earth->drag_m2_kg));
   const auto frame = [&](double time) {
     return ChiefFrame(time == 0 ? scene.nominal : chief.end(scene.nominal, 0, time),
                       metric_units(scene), scene.transfer->frame);
