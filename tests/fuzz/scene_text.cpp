@@ -3,6 +3,7 @@
 #include <set>
 
 #include "fuzz_target.hpp"
+#include "scene/scene_of_conjunction.hpp"
 #include "scene/study_reader.hpp"
 #include "scene/tables/scene_errors.hpp"
 
@@ -166,6 +167,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     refusal.kinds.push_back(ErrorKind::input_output);
     refusal.beginnings.emplace_back("");
   }
+  // A message in place of a scene is refused as a file of its kind.
+  if (io::is_conjunction_message(text)) refusal.kinds.push_back(ErrorKind::input_output);
   fuzz::is_read(
       [&] {
         std::visit([](const auto& study) { fuzz::check(study); },

@@ -36,7 +36,7 @@ expect "$(tr ' ' '\n' <<<"$commands" | grep '^c' | paste -sd ' ')" hamjet c
 expect '--help --version' hamjet --
 # Options are those that --help prints, and their short names.
 for command in $commands; do
-  options=$("$program" "$command" --help | sed -n 's/^  \(-[-a-z,]*\).*/\1/p' | tr , '\n' |
+  options=$("$program" "$command" --help | sed -n 's/^  \(-[-a-z_,]*\).*/\1/p' | tr , '\n' |
     sort | paste -sd ' ')
   expect "$options" hamjet "$command" -
 done

@@ -152,7 +152,8 @@ def conjunctions(messages: Iterable[str | os.PathLike[str]], radius_m: npt.Array
     Raises SceneError for what a message lacks, InputOutputError for what is none, NumericalError,
     TooLargeError.
     """
-    files = [messages] if isinstance(messages, (str, os.PathLike)) else list(messages)
+    files: list[str | os.PathLike[str]] = (
+        [messages] if isinstance(messages, (str, os.PathLike)) else list(messages))
     if not files:
         raise UsageError("messages: none, must be the paths of conjunction data messages")
     given = _numbers(radius_m, "radius_m", ())
