@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "held_signals.hpp"
 #include "text_file.hpp"
 
 namespace hamjet::io {
@@ -99,7 +100,11 @@ void refuse_replacing_link(const fs::path& path) {
                                printable_path(target)));
 }
 
-void require_writable(const fs::path& folder) { const WholeFile probe(temporary_in(folder)); }
+void require_writable(const fs::path& folder) {
+  // Nobody removes what the probe leaves if a signal ends the program within it.
+  const HeldSignals held;
+  const WholeFile probe(temporary_in(folder));
+}
 
 void replace_sealed_file(const fs::path& path, std::string_view content) {
   WholeFile file(path);
