@@ -25,6 +25,16 @@ FlowProblem<double> linear_problem(const SharedSystem& system, const SpacePointe
   return flow;
 }
 
+FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
+                           const ClockTime& start_time, double duration, double tolerance) {
+  GaussSettings settings;
+  settings.tolerance = tolerance;
+  IntegrationStatistics statistics;
+  const SpacePointer space = SeriesSpace::create(start.size(), 1);
+  return integrate_gauss<double>(linear_problem(system, space, start, start_time, duration),
+                                 settings, statistics);
+}
+
 GaussSettings exact_gauss() {
   GaussSettings settings;
   settings.tolerance = 1e-13;

@@ -20,6 +20,10 @@ FlowProblem<double> linear_problem(const SharedSystem& system, const SpacePointe
                                    const std::vector<double>& start, const ClockTime& start_time,
                                    double duration);
 
+/// The jet of linear_problem, by steps of this tolerance. Throws as integrate_gauss.
+FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
+                           const ClockTime& start_time, double duration, double tolerance);
+
 /// The settings with which exact_flow integrates.
 GaussSettings exact_gauss();
 

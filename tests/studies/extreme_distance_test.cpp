@@ -101,8 +101,8 @@ TEST(ExtremeDistance, APassageOfPerigeeIsNotMissed) {
     scene.transfer = TransferSettings{};
     const double semi_axis = 1e-8;
     scene.transfer->keep_out_m = Eigen::Vector3d::Constant(semi_axis * 1e7);
-    const double ratio =
-        keep_out_ratio(scene, scene.nominal, passage.deviation(), scene.start_time, time);
+    const double ratio = keep_out_ratio(FlownTogether(scene), scene.nominal, passage.deviation(),
+                                        scene.start_time, time);
     const auto least = static_cast<double>(passage.extreme(time, true));
     EXPECT_LT(least, 1e-2 * static_cast<double>(passage.separation(0)));
     EXPECT_NEAR(ratio * semi_axis, least, 1e-13) << time;

@@ -24,11 +24,15 @@ std::vector<double> CompanionFlow::chief_deviation(double time) const {
   return state_difference(chief_->nominal(time), state);
 }
 
-FlownTogether::FlownTogether(const Scene& scene)
-    : scene_(with_deputy_parameters(scene)), system_(make_system(scene_)) {
+FlownTogether::FlownTogether(const Scene& scene) : scene_(with_deputy_parameters(scene)) {
   if (!scene_.system.earth) return;
   chief_ = parameter_values(scene_.system);
   deputy_ = state_sum(chief_, deputy_parameters(scene_));
+}
+
+const SharedSystem& FlownTogether::system() const {
+  if (!system_) system_ = make_system(scene_);
+  return system_;
 }
 
 namespace {

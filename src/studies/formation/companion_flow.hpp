@@ -36,14 +36,15 @@ class FlownTogether {
   explicit FlownTogether(const Scene& scene);
 
   const Scene& scene() const noexcept { return scene_; }  ///< of with_deputy_parameters
-  const SharedSystem& system() const noexcept { return system_; }
+  /// Made when it is first asked for: air and axes are fitted anew for every system.
+  const SharedSystem& system() const;
   /// States (q, p) with the spacecraft's own coefficients.
   std::vector<double> of_chief(const std::vector<double>& state) const;
   std::vector<double> of_deputy(const std::vector<double>& state) const;
 
  private:
   Scene scene_;
-  SharedSystem system_;
+  mutable SharedSystem system_;
   std::vector<double> chief_;  ///< coefficients
   std::vector<double> deputy_;
 };

@@ -51,12 +51,18 @@ ComputedProblem costate_problem(const ComputedProblem& orbit, int order) {
 class ThrustedFlight {
  public:
   ThrustedFlight(const Scene& scene, const ComputedProblem& problem, double time)
-      : problem_(problem), time_(time), units_(metric_units(scene)), frame_(scene.transfer->frame) {
+      : problem_(problem),
+        time_(time),
+        units_(metric_units(scene)),
+        frame_(scene.transfer->frame),
+        chief_system_(system_of_chief(scene, problem)),
+        chief_start_(is_like_chief(scene) ? problem.nominal : scene.nominal) {
     orbit_end_ = exact_flow(problem.system, problem.nominal, problem.start_time, time);
-    const std::vector<double> orbit(orbit_end_.begin(), orbit_end_.begin() + states);
     chief_end_ = is_like_chief(scene)
-                     ? orbit
-                     : exact_flow(make_system(scene), scene.nominal, scene.start_time, time);
+                     ? orbit_end_
+                     : exact_flow(chief_system_, chief_start_, problem.start_time, time);
+    chief_end_.resize(states);
+    const std::vector<double> orbit(orbit_end_.begin(), orbit_end_.begin() + states);
     start_ = ChiefFrame(std::span(problem.nominal).first(states), units_, frame_)
                  .deviation(scene.transfer->start);
     end_ = state_sum(scene.transfer->end.deviation(chief_end_, units_, frame_),
@@ -109,6 +115,8 @@ class ThrustedFlight {
   double time_;
   MetricUnits units_;
   RelativeFrame frame_;
+  SharedSystem chief_system_;  ///< with costates, which are zero, if both are alike
+  std::vector<double> chief_start_;
   std::vector<double> orbit_end_;  ///< of a spacecraft like the deputy, with its costates
   std::vector<double> chief_end_;
   std::vector<double> start_;
@@ -148,14 +156,14 @@ void ThrustedFlight::measure(EnergyOptimalTransfer& transfer, int panels) const 
 std::vector<ThrustSample> ThrustedFlight::profile(const std::vector<double>& costates,
                                                   int intervals) const {
   std::vector<ThrustSample> samples;
-  std::vector<double> chief = problem_.nominal;
+  std::vector<double> chief = chief_start_;
   std::vector<double> z = deputy(costates);
   double now = 0;
   for (int k = 0; k <= intervals; ++k) {
     const double time = k == intervals ? time_ : time_ * k / intervals;
     if (time != now) {
       const ClockTime from = problem_.start_time + now;
-      chief = exact_flow(problem_.system, chief, from, time - now);
+      chief = exact_flow(chief_system_, chief, from, time - now);
       z = exact_flow(problem_.system, z, from, time - now);
       now = time;
     }

@@ -53,6 +53,10 @@ std::vector<Difference> differences_of(const Scene& scene) {
 
 bool is_like_chief(const Scene& scene) { return differences_of(scene).empty(); }
 
+SharedSystem system_of_chief(const Scene& scene, const ComputedProblem& orbit) {
+  return is_like_chief(scene) ? orbit.system : make_system(scene);
+}
+
 void require_one_spacecraft(const Scene& scene, std::string_view table) {
   for (const Difference& difference : differences_of(scene)) {
     throw Error(ErrorKind::scene,

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -13,6 +14,9 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
 
 /// Whether the deputy has the chief's C_D A / m and C_R A / m.
 bool is_like_chief(const Scene& scene);
+
+/// The chief's own system, beside the problem of an orbit of the scene with_deputy_coefficients.
+SharedSystem system_of_chief(const Scene& scene, const ComputedProblem& orbit);
 
 /// Throws Error(scene) if jets are expanded in a parameter.
 void require_states_alone(const Scene& scene, std::string_view table);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "companion_flow.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -13,7 +14,7 @@ namespace hamjet {
 /// deputy with this canonical deviation from it, at `start_time` of the system's clock; both fly
 /// for a time without impulses. Nothing between the steps of the flight is missed, see
 /// ExtremeDistance. Throws as fly_arcs, and Error(numerical) for a chief without an orbital plane.
-double keep_out_ratio(const Scene& scene, const std::vector<double>& chief,
+double keep_out_ratio(const FlownTogether& both, const std::vector<double>& chief,
                       const std::vector<double>& deviation, const ClockTime& start_time,
                       double time);
 
@@ -30,7 +31,7 @@ class WayLimits {
   std::string forbidden() const;
 
  private:
-  const Scene& scene_;
+  FlownTogether both_;
   std::optional<double> surface_;
   double ratio_;
   double lowest_;

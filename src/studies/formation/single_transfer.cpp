@@ -32,13 +32,9 @@ double rounding_of_flights(const Matrix<double>& linear, std::span<const double>
 }
 
 double rounding_of_flights(const ComputedProblem& problem, double time) {
-  const FlowProblem<double> flow =
-      linear_problem(problem.system, SeriesSpace::create(problem.nominal.size(), 1),
-                     problem.nominal, problem.start_time, time);
-  GaussSettings settings;
-  settings.tolerance = 1e-10;  // the result serves as a scale, for which two digits would do
-  IntegrationStatistics statistics;
-  return rounding_of_flights(problem, integrate_gauss<double>(flow, settings, statistics));
+  constexpr double tolerance = 1e-10;  // of a scale, for which two digits would do
+  return rounding_of_flights(
+      problem, linear_jet(problem.system, problem.nominal, problem.start_time, time, tolerance));
 }
 
 SingleTransfer::SingleTransfer(const Scene& scene, const ComputedProblem& problem, double time,

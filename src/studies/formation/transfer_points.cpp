@@ -59,6 +59,7 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
     : scene_(scene),
       settings_(*scene.transfer),
       seconds_(seconds),
+      both_(scene),
       problem_(make_problem(with_deputy_coefficients(scene))),
       kinds_(all_kinds(3)),
       coordinates_(measured_coordinates_of(scene)) {
@@ -267,10 +268,9 @@ void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& poin
   const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
   point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
   // The coefficients of both end the states, and their difference the deviation.
-  const FlownTogether both(scene_);
-  const std::vector<double> together = both.of_chief(chief);
-  point.drift = relative_drift(both.scene(), together,
-                               state_difference(both.of_deputy(state_sum(chief, end)), together),
+  const std::vector<double> together = both_.of_chief(chief);
+  point.drift = relative_drift(both_.scene(), together,
+                               state_difference(both_.of_deputy(state_sum(chief, end)), together),
                                problem_.start_time + point.time, settings_.frame, finds_holding);
 }
 
@@ -295,7 +295,7 @@ void TransferPoints::judge_limits(const RelativeTransfer& ends, TransferPoint& p
   if (!settings_.keep_out_m || point.lowest == 0.0) return;
   try {
     point.keep_out_ratio =
-        keep_out_ratio(scene_, problem_.nominal, deviation, problem_.start_time, point.time);
+        keep_out_ratio(both_, problem_.nominal, deviation, problem_.start_time, point.time);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     // Next to a singular time polynomials ask for velocities with which no way can be followed;
@@ -369,9 +369,9 @@ const TransferPoints::FlownOrbits& TransferPoints::flown_orbits(double time) {
   if (flown_.orbit.empty() || time != flown_.time) {
     const Stopwatch watch(seconds_.proof);
     flown_.orbit = exact_flow(problem_.system, problem_.nominal, problem_.start_time, time);
-    flown_.chief = is_like_chief(scene_)
-                       ? flown_.orbit
-                       : exact_flow(make_system(scene_), scene_.nominal, scene_.start_time, time);
+    flown_.chief = is_like_chief(scene_) ? flown_.orbit
+                                         : exact_flow(system_of_chief(scene_, problem_),
+                                                      problem_.nominal, problem_.start_time, time);
     flown_.time = time;
   }
   return flown_;

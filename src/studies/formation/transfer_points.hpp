@@ -110,6 +110,7 @@ class TransferPoints {
   const Scene& scene_;
   const TransferSettings& settings_;
   TransferSeconds& seconds_;
+  FlownTogether both_;
   ComputedProblem problem_;                        ///< of spacecraft like the deputy
   std::optional<ComputedProblem> linear_problem_;  ///< see jet_problem
   std::optional<CompanionFlow> flow_;

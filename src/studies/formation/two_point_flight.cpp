@@ -5,7 +5,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "../exact_flow.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -13,28 +12,12 @@
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
-namespace {
-
-/// The flow's jet of order 1 from a state.
-FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
-                           const ClockTime& start_time, double duration) {
-  std::vector<std::size_t> variables(start.size());
-  std::iota(variables.begin(), variables.end(), std::size_t{0});
-  const FlowProblem<double> problem{
-      system, SeriesSpace::create(start.size(), 1), variables, start, start_time, duration};
-  GaussSettings settings;
-  settings.tolerance = 1e-12;
-  IntegrationStatistics statistics;
-  return integrate_gauss<double>(problem, settings, statistics);
-}
-
-}  // namespace
-
 TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess,
                            const ClockTime& start_time, const Eigen::Vector3d& position,
                            double duration, double most_miss) {
   constexpr int most_flights = 20;
   constexpr double singular = 1e-10;
+  constexpr double tolerance = 1e-12;  // of the derivatives
   TwoPointFlight flight;
   flight.start = std::move(guess);
   try {
@@ -46,7 +29,7 @@ TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess
       flight.miss = missing.norm();
       if (flight.miss <= most_miss) return flight;
       const Matrix<double> flow =
-          linear_part(linear_jet(system, flight.start, start_time, duration));
+          linear_part(linear_jet(system, flight.start, start_time, duration, tolerance));
       const Eigen::Matrix3d commanded = flow.topRightCorner(3, 3);
       const Eigen::JacobiSVD<Eigen::Matrix3d> solver(commanded,
                                                      Eigen::ComputeFullU | Eigen::ComputeFullV);

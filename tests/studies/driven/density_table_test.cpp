@@ -8,6 +8,7 @@
 #include "dynamics/fields/exponential_atmosphere.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "low_orbit_text.hpp"
 #include "studies/exact_flow.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -19,27 +20,7 @@ namespace {
 
 /// 514 km above the equator.
 Scene scene_in(const std::string& air, const std::string& file = "table.toml") {
-  return io::parse_scene(fmt::format(R"(schema = 1
-[system]
-model = "earth"
-gravity_degree = 2
-gravity_order = 0
-sun = false
-moon = false
-{}
-[spacecraft]
-drag_m2_kg = 0.02
-[nominal]
-epoch_utc = "2026-03-01T06:00:00"
-height_km = 514
-i_deg = 0.1
-raan_deg = 30
-u_deg = 0
-[jet]
-order = 1
-duration_s = 20000
-)",
-                                     air),
+  return io::parse_scene(low_orbit_text(air, 0.02, 0.1) + "[jet]\norder = 1\nduration_s = 20000\n",
                          file);
 }
 

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/transfer.hpp"
+#include "low_orbit_text.hpp"
 #include "studies/checks/force_sizes.hpp"
 #include "studies/exact_flow.hpp"
 #include "studies/formation/deputy_motion.hpp"
@@ -21,31 +21,9 @@ namespace {
 
 /// Half a day, 514 km up, with zonal harmonics of degree 2; the deputy is with its chief.
 Scene scene_of(double chief, double deputy, const std::string& more = {}) {
-  return io::parse_scene(fmt::format(R"(schema = 1
-[system]
-model = "earth"
-gravity_degree = 2
-gravity_order = 0
-sun = false
-moon = false
-atmosphere = "harris-priester"
-[spacecraft]
-drag_m2_kg = {}
-[nominal]
-epoch_utc = "2026-03-01T06:00:00"
-height_km = 514
-i_deg = 97.5
-raan_deg = 30
-u_deg = 0
-[deputy]
-position_m = [0, 0, 0]
-spacecraft = {{ drag_m2_kg = {} }}
-[jet]
-order = 3
-duration_s = 43200
-{})",
-                                     chief, deputy, more),
-                         "drag.toml");
+  return io::parse_scene(
+      low_pair_text("atmosphere = \"harris-priester\"", chief, deputy, 97.5, "0, 0, 0") + more,
+      "drag.toml");
 }
 
 TEST(DragStudies, DeputiesOfOtherDragAreOnTheChiefsJet) {

@@ -298,8 +298,8 @@ TEST(DrivenFlights, KeepOutRatio) {
             .relative(state_difference(driven_flight(deputy, late + 2, time), c));
     return relative.position_m.cwiseQuotient(*settings.keep_out_m / metres).norm();
   };
-  const double found =
-      keep_out_ratio(scene, chief, state_difference(deputy, chief), scene.start_time + 2, 5);
+  const double found = keep_out_ratio(FlownTogether(scene), chief, state_difference(deputy, chief),
+                                      scene.start_time + 2, 5);
   const auto [least, at] = least_of(0, 5, ratio);
   EXPECT_GT(at, 1);
   EXPECT_LT(at, 4);

@@ -20,22 +20,8 @@ Eigen::Vector3d direction_of(const Eigen::Vector3d& change) {
   return size > 0 ? Eigen::Vector3d(change / size) : Eigen::Vector3d::UnitY();
 }
 
-/// A flight and its derivatives by the numbers of the state at its start.
-struct LinearizedFlight {
-  std::vector<double> end;
-  Matrix<double> matrix;
-};
-
-LinearizedFlight linearized(const SharedSystem& system, const std::vector<double>& start,
-                            const ClockTime& start_time, double duration) {
-  GaussSettings settings;
-  settings.tolerance = 1e-11;  // derivatives of Newton's method, which flights without them judge
-  IntegrationStatistics statistics;
-  const FlowJet<double> jet = integrate_gauss<double>(
-      linear_problem(system, SeriesSpace::create(start.size(), 1), start, start_time, duration),
-      settings, statistics);
-  return {nominal_of(jet), linear_part(jet)};
-}
+/// Of the derivatives of Newton's method, which flights without them judge.
+constexpr double tolerance_of_derivatives = 1e-11;
 
 /// The mean time of the change of a burn from mass 1 on, in parts of the time that would burn all
 /// of it: the time is 1 - m, the change is x = -ln m of the exhaust's speed, and the mean is
@@ -83,7 +69,7 @@ BurnFlight::BurnFlight(const Scene& scene, const ComputedProblem& problem,
       burning_(burning),
       duration_(duration),
       units_(metric_units(scene)),
-      chief_system_(is_like_chief(scene) ? problem.system : make_system(scene)),
+      chief_system_(system_of_chief(scene, problem)),
       chief_end_(exact_flow(chief_system_, problem.nominal, problem.start_time, duration)),
       end_(scene.transfer->end.deviation(chief_end_, units_, scene.transfer->frame)) {}
 
@@ -131,7 +117,7 @@ std::vector<BurnSpan> BurnFlight::spans(const CanonicalThruster& thruster,
     const double size = changes[k].norm();
     const double start = at[k].time - thruster.centre(size, mass);
     spans.push_back({start, start + thruster.length(size, mass), mass});
-    mass = thruster.mass_after(changes[k].norm(), mass);
+    mass = thruster.mass_after(size, mass);
   }
   return spans;
 }
@@ -183,10 +169,10 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> BurnFlight::derivatives(const Canonical
   double now = 0;
   const auto coast = [&](double time) {
     if (time == now) return;
-    LinearizedFlight leg =
-        linearized(problem_.system, state, problem_.start_time + now, time - now);
-    carried = leg.matrix * carried;
-    state = std::move(leg.end);
+    const FlowJet<double> leg = linear_jet(problem_.system, state, problem_.start_time + now,
+                                           time - now, tolerance_of_derivatives);
+    carried = linear_part(leg) * carried;
+    state = nominal_of(leg);
     now = time;
   };
   const std::vector<BurnSpan> times = spans(thruster, at, changes);
@@ -208,20 +194,21 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> BurnFlight::derivatives(const Canonical
     coast(span.start);
     carried.bottomRows<3>() += switched(first) * earlier;
     if (span.length() > 0) {
-      const LinearizedFlight leg =
-          linearized(burning_, burning_state(thruster, state, span, changes[k]),
-                     problem_.start_time + now, span.length());
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic> parameters =
-          Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(kind(thruster).parameters()), columns);
+      const FlowJet<double> leg =
+          linear_jet(burning_, burning_state(thruster, state, span, changes[k]),
+                     problem_.start_time + now, span.length(), tolerance_of_derivatives);
+      const Matrix<double> flow = linear_part(leg);
+      Eigen::MatrixXd parameters = Eigen::MatrixXd::Zero(flow.cols() - 6, columns);
       const double scale = thruster.mass_falls() ? thruster.exhaust : thruster.acceleration;
       parameters.block<3, 3>(0, own) =
           scale / size * (Eigen::Matrix3d::Identity() - direction * direction.transpose());
       if (thruster.mass_falls()) {
         parameters.row(3) = thruster.exhaust / thruster.acceleration * mass_rate - earlier;
       }
-      carried = leg.matrix.topLeftCorner(6, 6) * carried +
-                leg.matrix.block(0, 6, 6, parameters.rows()) * parameters;
-      state.assign(leg.end.begin(), leg.end.begin() + states);
+      carried =
+          flow.topLeftCorner(6, 6) * carried + flow.topRightCorner(6, flow.cols() - 6) * parameters;
+      state = nominal_of(leg);
+      state.resize(states);
       now = span.end;
     }
     carried.bottomRows<3>() += switched(last) * later;
@@ -234,10 +221,6 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> BurnFlight::derivatives(const Canonical
   }
   coast(duration_);
   return carried;
-}
-
-BurningThrust BurnFlight::kind(const CanonicalThruster& thruster) const {
-  return {scene_.thruster->attitude == BurnAttitude::rtn, thruster.mass_falls()};
 }
 
 }  // namespace hamjet

@@ -68,7 +68,6 @@ class BurnFlight {
   const MetricUnits& units() const { return units_; }
 
  private:
-  BurningThrust kind(const CanonicalThruster& thruster) const;
   Eigen::Matrix3d axes(const std::vector<double>& state) const;
   std::vector<double> start_state() const;
   std::vector<double> burning_state(const CanonicalThruster& thruster, std::vector<double> state,
