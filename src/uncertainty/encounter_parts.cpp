@@ -11,6 +11,7 @@
 #include "cubic_arc.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "relative_paths.hpp"
+#include "track_axes.hpp"
 
 namespace hamjet {
 namespace {
@@ -45,11 +46,7 @@ struct Component {
 
 /// The gradient, by the standard normal numbers, of the position along the track.
 Row6 along_track(const UncertainSpacecraft& craft) {
-  const Eigen::Map<const Eigen::Vector3d> position(craft.state.data());
-  const Eigen::Map<const Eigen::Vector3d> velocity(craft.state.data() + 3);
-  const Eigen::Vector3d r = position.normalized();
-  const Eigen::Vector3d t = (velocity - r * r.dot(velocity)).normalized();
-  return t.transpose() * craft.factor.topRows(3);
+  return TrackAxes(craft.state.data()).along.transpose() * craft.factor.topRows(3);
 }
 
 /// The part of a spacecraft's distribution about a standard normal number along a unit vector of
@@ -95,10 +92,7 @@ std::vector<Component> components_of(const UncertainSpacecraft& craft, double be
 /// Half of the square of the shortest vector of normal numbers that makes the position across the
 /// relative velocity vanish.
 double half_square_across(const LinearRelativeState& state) {
-  const Eigen::Vector3d along = state.mean.tail<3>().normalized();
-  Eigen::Matrix<double, 2, 3> plane;
-  plane.row(0) = along.unitOrthogonal().transpose();
-  plane.row(1) = along.cross(plane.row(0).transpose()).transpose();
+  const Eigen::Matrix<double, 2, 3> plane = plane_across(state);
   const Eigen::Vector2d miss = plane * state.mean.head<3>();
   const Eigen::Matrix<double, 2, 12> spread = plane * state.by_deviation.topRows(3);
   const Eigen::Matrix2d covariance = spread * spread.transpose();

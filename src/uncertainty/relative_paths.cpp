@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -28,6 +29,14 @@ constexpr std::array<double, 3> checked_parts = {0.5, 0.21, 0.77};
 constexpr double rounding_of_flow = 1e-12;
 
 }  // namespace
+
+Eigen::Matrix<double, 2, 3> plane_across(const LinearRelativeState& state) {
+  const Eigen::Vector3d along = state.mean.tail<3>().normalized();
+  Eigen::Matrix<double, 2, 3> plane;
+  plane.row(0) = along.unitOrthogonal().transpose();
+  plane.row(1) = along.cross(plane.row(0).transpose()).transpose();
+  return plane;
+}
 
 std::array<double, 6> UncertainSpacecraft::deviated(const Eigen::Matrix<double, 6, 1>& xi) const {
   Eigen::Matrix<double, 6, 1> deviation = factor * xi;

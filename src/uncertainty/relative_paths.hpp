@@ -29,6 +29,8 @@ struct LinearRelativeState {
   Eigen::Matrix<double, 6, 1> mean;
   Eigen::Matrix<double, 6, 12> by_deviation;
 };
+/// Two unit vectors across the mean's relative velocity and each other, as rows.
+Eigen::Matrix<double, 2, 3> plane_across(const LinearRelativeState& state);
 
 /// The relative motion of two spacecraft in a window of time, as a function of the deviations of
 /// both at the epoch: at nodes in time by the polynomials of two jets, one about the mean of each

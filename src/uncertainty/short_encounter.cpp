@@ -134,9 +134,7 @@ ShortEncounter short_encounter(const EncounterProblem& problem, double time_of_c
     return Eigen::Matrix3d(s.by_deviation.topRows(3) * s.by_deviation.topRows(3).transpose());
   };
   const Eigen::Matrix3d covariance = covariance_of(state);
-  Eigen::Matrix<double, 3, 2> plane;
-  plane.col(0) = along.unitOrthogonal();
-  plane.col(1) = along.cross(plane.col(0));
+  const Eigen::Matrix<double, 3, 2> plane = plane_across(state).transpose();
   const auto principal = symmetric_eigenvalues(
       "short encounter", Eigen::Matrix2d(plane.transpose() * covariance * plane));
   const Eigen::Matrix<double, 3, 2> axes = plane * principal.eigenvectors();

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <cmath>
+
+#include "../../uncertainty/track_axes.hpp"
 
 namespace hamjet {
 
@@ -19,32 +20,25 @@ AlongTrackBend along_track_bend(const EncounterProblem& problem, const Encounter
   double radial_variance = 0;
   for (std::size_t craft = 0; craft < 2; ++craft) {
     const UncertainSpacecraft& spacecraft = problem.spacecraft[craft];
-    const Eigen::Map<const Eigen::Vector3d> position(spacecraft.state.data());
-    const Eigen::Map<const Eigen::Vector3d> velocity(spacecraft.state.data() + 3);
-    const double distance = position.norm();
-    const Eigen::Vector3d r = position / distance;
-    const Eigen::Vector3d t = (velocity - r * r.dot(velocity)).normalized();
-    const Eigen::Matrix<double, 1, 6> along = t.transpose() * spacecraft.factor.topRows(3);
-    const Eigen::Matrix<double, 1, 6> radial = r.transpose() * spacecraft.factor.topRows(3);
+    const TrackAxes axes(spacecraft.state.data());
+    const Eigen::Matrix<double, 1, 6> along = axes.along.transpose() * spacecraft.factor.topRows(3);
+    const Eigen::Matrix<double, 1, 6> radial =
+        axes.radial.transpose() * spacecraft.factor.topRows(3);
     const double variance = along.squaredNorm();
     const double at = along.dot(about.segment<6>(static_cast<Eigen::Index>(6 * craft)));
     // Elements bend with the orbit.
     if (!spacecraft.straight) {
       result.deviations[craft] = std::sqrt(variance);
-      result.bend += (at * at + variance) / (2 * distance);
+      result.bend += (at * at + variance) / (2 * axes.distance);
     }
-    const double common = variance > 0 ? std::pow(along.dot(radial), 2) / variance : 0;
-    radial_variance += std::max(0.0, radial.squaredNorm() - common);
+    radial_variance += variance_beside(radial.squaredNorm(), along.dot(radial), variance);
   }
   result.radial = std::sqrt(radial_variance);
   return result;
 }
 
 EncounterDeviation deviation_of_meeting(const LinearRelativeState& at_approach) {
-  const Eigen::Vector3d along = at_approach.mean.tail<3>().normalized();
-  Eigen::Matrix<double, 2, 3> plane;
-  plane.row(0) = along.unitOrthogonal().transpose();
-  plane.row(1) = along.cross(plane.row(0).transpose()).transpose();
+  const Eigen::Matrix<double, 2, 3> plane = plane_across(at_approach);
   const Eigen::Matrix<double, 2, 12> spread = plane * at_approach.by_deviation.topRows(3);
   const Eigen::Vector2d miss = plane * at_approach.mean.head<3>();
   return spread.completeOrthogonalDecomposition().solve(-miss);

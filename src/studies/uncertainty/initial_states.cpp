@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../uncertainty/track_axes.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
@@ -33,19 +34,14 @@ struct LineOfPositions {
 };
 
 LineOfPositions line_of_positions(const Covariance& covariance, const Vector<double>& state) {
-  const Eigen::Vector3d position = state.head(3);
-  const Eigen::Vector3d velocity = state.tail(3);
-  const double distance = position.norm();
-  const Eigen::Vector3d r = position / distance;
-  const Eigen::Vector3d t = (velocity - r * r.dot(velocity)).normalized();
-  Matrix<double> axes = Matrix<double>::Zero(2, 6);
-  axes.row(0).head(3) = t.transpose();
-  axes.row(1).head(3) = r.transpose();
-  const Matrix<double> along = covariance.mapped(axes).matrix();
-  const double common = along(0, 0) > 0 ? along(0, 1) * along(0, 1) / along(0, 0) : 0;
+  const TrackAxes axes(state.data());
+  Matrix<double> rows = Matrix<double>::Zero(2, 6);
+  rows.row(0).head(3) = axes.along.transpose();
+  rows.row(1).head(3) = axes.radial.transpose();
+  const Matrix<double> along = covariance.mapped(rows).matrix();
   constexpr double far_out = 3;
-  return {std::sqrt(along(0, 0)), far_out * far_out * along(0, 0) / (2 * distance),
-          std::sqrt(std::max(0.0, along(1, 1) - common))};
+  return {std::sqrt(along(0, 0)), far_out * far_out * along(0, 0) / (2 * axes.distance),
+          std::sqrt(variance_beside(along(1, 1), along(0, 1), along(0, 0)))};
 }
 
 /// The length beside which the scene asks where spacecraft are; 0 without one.
