@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "../studies/checks/decay.hpp"
 #include "../text/scene_message.hpp"
@@ -24,10 +25,11 @@ std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene&
                     decay.spacecraft, decay.height_km, decay.time_s / 3600, decay.time_s,
                     std::floor(decay.time_s)));
   }
-  const auto perigee = perigee_height_km(scene, scene.nominal);
-  if (perigee && *perigee<least_height_km&& * perigee> 0 && !has_decayed) {
+  const double perigee_km =
+      perigee_height_km(scene, scene.nominal).value_or(std::numeric_limits<double>::infinity());
+  if (perigee_km > 0 && perigee_km < least_height_km && !has_decayed) {
     add("nominal", fmt::format("low, got a perigee {:.4g} km high, should be above {} km: {}",
-                               *perigee, least_height_km,
+                               perigee_km, least_height_km,
                                scene.system.earth->atmosphere
                                    ? "the air ends such orbits within days"
                                    : "the air, which this scene is without, ends such orbits "

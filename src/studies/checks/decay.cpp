@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../algebra/scalar_search.hpp"
 #include "../../algebra/state_sums.hpp"
 #include "../../dynamics/fields/density_profile.hpp"
 #include "../../dynamics/fields/reference_ellipsoid.hpp"
@@ -75,21 +76,22 @@ class DecayFlight {
   const FlownTogether& together() const { return together_; }
 
  private:
-  bool is_below(const FlightArc& arc, double share) const {
-    return height_km(scene_, arc.state(0, share)) < limit_km_;
+  /// The height above the limit.
+  double margin_km(const FlightArc& arc, double share) const {
+    return height_km(scene_, arc.state(0, share)) - limit_km_;
   }
 
   void look(const FlightArc& arc) const {
     constexpr int parts = 8;
     for (int k = 1; k <= parts; ++k) {
-      double below = static_cast<double>(k) / parts;
-      if (!is_below(arc, below)) continue;
-      double above = below - 1.0 / parts;
-      for (int halving = 0; halving < 40; ++halving) {
-        const double middle = (above + below) / 2;
-        (is_below(arc, middle) ? below : above) = middle;
-      }
-      throw Below{arc.time_at(below)};
+      const double below = static_cast<double>(k) / parts;
+      const double margin = margin_km(arc, below);
+      if (!(margin < 0)) continue;
+      const double above = below - 1.0 / parts;
+      constexpr int bits = 40;
+      throw Below{arc.time_at(root_between(
+          "decay", [&](double share) { return margin_km(arc, share); },
+          {above, margin_km(arc, above)}, {below, margin}, bits))};
     }
   }
 
