@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -57,15 +56,6 @@ const BurnPlan* least_plan(const TransferResult& result) {
   return result.burns && result.burns->least ? &result.burns->plans[*result.burns->least] : nullptr;
 }
 
-/// The plan whose impulses are the cheapest.
-const BurnPlan* cheapest_impulses(const TransferResult& result) {
-  const auto& plans = result.burns->plans;
-  const auto place = std::min_element(
-      plans.begin(), plans.end(),
-      [](const BurnPlan& a, const BurnPlan& b) { return a.impulses_m_s < b.impulses_m_s; });
-  return place == plans.end() ? nullptr : &*place;
-}
-
 std::optional<double> shortest_time_s(const TransferResult& result) {
   if (!result.burns) return std::nullopt;
   for (const BurnPlan& plan : result.burns->plans) {
@@ -92,8 +82,6 @@ std::string lengths_text(const BurnPlan& plan, const TransferResult& result) {
   }
   return fmt::format("{}", fmt::join(lengths, ", "));
 }
-
-double loss_of(const BurnPlan& plan) { return plan.change_m_s() - plan.impulses_m_s; }
 
 }  // namespace
 
@@ -134,7 +122,7 @@ TableView burns_table(const TransferResult& result) {
   table.add("impulse_m_s", "m/s", "the magnitude of the impulse",
             of_burn(&FiniteBurn::impulse_m_s));
   table.add("gravity_loss_m_s", "m/s", "by how much the burn's change is larger",
-            of_burn([](const FiniteBurn& burn) { return burn.change_m_s - burn.impulse_m_s; }));
+            of_burn(&FiniteBurn::loss_m_s));
   table.add("propellant_kg", "kg", "that it takes; nothing where no mass is given",
             [](const BurnRow& row) {
               return row.burn != nullptr ? row.burn->propellant_kg : std::nullopt;
@@ -176,7 +164,7 @@ TableView burns_table(const TransferResult& result) {
 
 std::string burns_failure(const TransferResult& result) {
   if (!result.burns || result.burns->least) return "";
-  const BurnPlan* cheapest = cheapest_impulses(result);
+  const BurnPlan* cheapest = result.burns->cheapest_impulses();
   return result.burns->failure + (cheapest != nullptr ? remedy(*cheapest, result) : "");
 }
 
@@ -193,9 +181,9 @@ std::string burns_verdict(const TransferResult& result) {
       velocity_text(least->change_m_s()), counted(least->burns.size(), "burn"),
       lengths_text(*least, result), time_text(seconds(result, least->duration)),
       propellant ? fmt::format(", {:.4g} kg of propellant", *propellant) : "",
-      velocity_text(loss_of(*least)), 100 * loss_of(*least) / least->impulses_m_s,
+      velocity_text(least->loss_m_s()), 100 * least->loss_m_s() / least->impulses_m_s,
       miss_text(least->miss_m, result.flight_floor_m), least->velocity_miss_m_s);
-  const BurnPlan* cheapest = cheapest_impulses(result);
+  const BurnPlan* cheapest = result.burns->cheapest_impulses();
   if (cheapest->is_found()) return text;
   text += fmt::format(" The {} impulses of the least sum, over {}, cannot be replaced: {}{}.",
                       impulses_name(*cheapest), time_text(seconds(result, cheapest->duration)),
@@ -225,7 +213,7 @@ std::string burn_lines(const TransferResult& result) {
     rows.push_back({fmt::format("{:.1f}", seconds(result, burn.start)),
                     fmt::format("{:.3f}", seconds(result, burn.end - burn.start)),
                     fmt::format("{:.6f}", burn.change_m_s),
-                    fmt::format("{:.1e}", burn.change_m_s - burn.impulse_m_s)});
+                    fmt::format("{:.1e}", burn.loss_m_s())});
     for (const double x : burn.direction) rows.back().push_back(fmt::format("{:.4f}", x));
   }
   std::istringstream lines(aligned_table(rows));
@@ -252,7 +240,7 @@ std::string burns_section_html(const TransferResult& result) {
     rows += cell(fmt::format("{:.6g}", seconds(result, burn.start))) +
             cell(fmt::format("{:.5g}", seconds(result, burn.end - burn.start))) +
             cell(fmt::format("{:.6g}", burn.change_m_s)) +
-            cell(fmt::format("{:.3g}", burn.change_m_s - burn.impulse_m_s));
+            cell(fmt::format("{:.3g}", burn.loss_m_s()));
     for (const double x : burn.direction) rows += cell(fmt::format("{:.5f}", x));
     rows += cell(burn.propellant_kg ? fmt::format("{:.4g}", *burn.propellant_kg) : "") +
             cell(fmt::format("{:.3g}", row.plan->miss_m)) + "</tr>\n";

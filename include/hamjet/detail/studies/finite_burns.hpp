@@ -21,6 +21,9 @@ struct FiniteBurn {
   /// Propellant that the burn takes, and mass behind it; absent if the mass does not fall.
   std::optional<double> propellant_kg;
   std::optional<double> mass_after_kg;
+
+  /// By how much the burn's change is larger than the impulse.
+  double loss_m_s() const { return change_m_s - impulse_m_s; }
 };
 
 /// Burns in place of the impulses of one transfer. Impulses at its ends become burns that begin
@@ -42,7 +45,8 @@ struct BurnPlan {
 
   bool is_found() const { return failure.empty(); }
   double change_m_s() const;
-  std::optional<double> propellant_kg() const;  ///< of all burns
+  double loss_m_s() const { return change_m_s() - impulses_m_s; }  ///< of all burns
+  std::optional<double> propellant_kg() const;                     ///< of all burns
 };
 
 /// The burns of table `[thruster]`.
@@ -52,6 +56,9 @@ struct FiniteBurns {
   std::vector<BurnPlan> plans;
   std::optional<std::size_t> least;  ///< index of the least change of those that were found
   std::string failure;               ///< if not empty, the reason why there is none
+
+  /// The plan whose impulses have the least sum; null without any.
+  const BurnPlan* cheapest_impulses() const;
 };
 
 }  // namespace hamjet

@@ -22,6 +22,13 @@ std::optional<double> BurnPlan::propellant_kg() const {
   return sum;
 }
 
+const BurnPlan* FiniteBurns::cheapest_impulses() const {
+  const auto cheapest = std::min_element(
+      plans.begin(), plans.end(),
+      [](const BurnPlan& a, const BurnPlan& b) { return a.impulses_m_s < b.impulses_m_s; });
+  return cheapest == plans.end() ? nullptr : &*cheapest;
+}
+
 namespace {
 
 /// Points whose answers are proved and allowed, evenly spread, with the least.
@@ -101,14 +108,9 @@ FiniteBurns finite_burns(const Scene& scene, const ComputedProblem& problem,
     }
   }
   if (burns.least) return burns;
-  if (burns.plans.empty()) {
-    burns.failure = "there are no impulses that burns could replace";
-    return burns;
-  }
-  const auto cheapest = std::min_element(
-      burns.plans.begin(), burns.plans.end(),
-      [](const BurnPlan& a, const BurnPlan& b) { return a.impulses_m_s < b.impulses_m_s; });
-  burns.failure = cheapest->failure;
+  const BurnPlan* const cheapest = burns.cheapest_impulses();
+  burns.failure =
+      cheapest != nullptr ? cheapest->failure : "there are no impulses that burns could replace";
   return burns;
 }
 
