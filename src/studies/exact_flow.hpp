@@ -20,15 +20,13 @@ FlowProblem<double> linear_problem(const SharedSystem& system, const SpacePointe
                                    const std::vector<double>& start, const ClockTime& start_time,
                                    double duration);
 
-/// The jet of linear_problem, by steps of this tolerance. Throws as integrate_gauss.
+/// The jet of linear_problem, by steps of this tolerance, which is not tried on lines.
+/// Throws as integrate_gauss.
 FlowJet<double> linear_jet(const SharedSystem& system, const std::vector<double>& start,
                            const ClockTime& start_time, double duration, double tolerance);
 
-/// The settings with which exact_flow integrates.
-GaussSettings exact_gauss();
-
-/// The final state of the flow with the full equations of motion, to the precision of double, of
-/// the state that stands at `start_time` of the system's clock.
+/// The final state of the flow with the full equations of motion, to rounding, of the state
+/// that stands at `start_time` of the system's clock.
 /// Throws as integrate_gauss.
 std::vector<double> exact_flow(const SharedSystem& system, const std::vector<double>& start,
                                const ClockTime& start_time, double duration);

@@ -9,6 +9,7 @@
 
 #include "../../charts/plane_elements.hpp"
 #include "../../poincare/nodal_flight.hpp"
+#include "../exact_flow.hpp"
 #include "../flights/extreme_distance.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
@@ -30,7 +31,6 @@ CompanyFlight::CompanyFlight(const Scene& scene, const FlowSection<double>& sect
     : section_(section),
       system_(make_system(scene)),
       start_time_(scene.start_time),
-      flights_(system_),
       units_(metric_units(scene)),
       mu_(orbit_field(scene).mu),
       nodal_period_(nodal_period),
@@ -65,7 +65,7 @@ double CompanyFlight::mean_motion() const { return 2 * std::numbers::pi / mean_p
 
 std::vector<double> CompanyFlight::flown_on(const std::vector<double>& state, double since,
                                             double time) const {
-  return flights_.end(state, start_time_ + since, time);
+  return exact_flow(system_, state, start_time_ + since, time);
 }
 
 /// One revolution in equal steps of the chief's eccentric anomaly, so that its pericentre has as

@@ -3,7 +3,6 @@
 #include <span>
 #include <vector>
 
-#include "../flights/nearby_flights.hpp"
 #include "bounded_formation.hpp"
 #include "hamjet/charts/flow_section.hpp"
 #include "hamjet/dynamics/clock_time.hpp"
@@ -58,7 +57,6 @@ class CompanyFlight {
   const FlowSection<double>& section_;
   SharedSystem system_;
   ClockTime start_time_;
-  mutable NearbyFlights flights_;
   MetricUnits units_;
   double mu_;
   double nodal_period_;

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "../../algebra/state_sums.hpp"
-#include "../flights/nearby_flights.hpp"
-#include "../nominal/nominal_period.hpp"
+#include "../exact_flow.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -13,12 +12,7 @@ namespace hamjet {
 RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double>& deviation,
                                     RelativeFrame frame, const std::vector<double>& times,
                                     std::size_t parts) {
-  // The steps that serve a revolution serve its parts.
-  NearbyFlights flights(make_system(scene));
-  const double whole = times.back();
-  const double revolution =
-      std::min(nominal_period(scene).value_or(std::abs(whole)), std::abs(whole));
-  flights.try_tolerance(scene.nominal, scene.start_time, std::copysign(revolution, whole));
+  const SharedSystem system = make_system(scene);
   const MetricUnits units = metric_units(scene);
   RelativeTrajectory trajectory;
   trajectory.frame = frame;
@@ -38,13 +32,13 @@ RelativeTrajectory flown_trajectory(const Scene& scene, const std::vector<double
     std::vector<double> deputy_between = deputy;
     for (std::size_t k = last - parts + 1; k < last; ++k) {
       const ClockTime from = scene.start_time + times[k - 1];
-      chief_between = flights.end(chief_between, from, times[k] - times[k - 1]);
-      deputy_between = flights.end(deputy_between, from, times[k] - times[k - 1]);
+      chief_between = exact_flow(system, chief_between, from, times[k] - times[k - 1]);
+      deputy_between = exact_flow(system, deputy_between, from, times[k] - times[k - 1]);
       add(times[k], chief_between, deputy_between);
     }
     const ClockTime from = scene.start_time + times[last - parts];
-    chief = flights.end(chief, from, times[last] - times[last - parts]);
-    deputy = flights.end(deputy, from, times[last] - times[last - parts]);
+    chief = exact_flow(system, chief, from, times[last] - times[last - parts]);
+    deputy = exact_flow(system, deputy, from, times[last] - times[last - parts]);
     add(times[last], chief, deputy);
   }
   return trajectory;

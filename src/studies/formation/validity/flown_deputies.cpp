@@ -76,7 +76,7 @@ Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
   const SixNumbers<double> start = deviation(coordinates);
   std::vector<double> flown;
   try {
-    flown = flights_.end(state(start), problem_.start_time, time_);
+    flown = exact_flow(problem_.system, state(start), problem_.start_time, time_);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     return Vector6::Constant(std::numeric_limits<double>::infinity());
@@ -91,9 +91,11 @@ double FlownDeputies::miss(const Vector6& coordinates, int order) {
 
 Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double step) {
   if (before_flight_) before_flight_();
+  constexpr double step_tolerance = 1e-13;  // the directions of an ascent need no more
   FlowJet<double> flown;
   try {
-    flown = flights_.linear_end(state(deviation(coordinates)), problem_.start_time, time_);
+    flown = linear_jet(problem_.system, state(deviation(coordinates)), problem_.start_time, time_,
+                       step_tolerance);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
     return Vector6::Constant(std::numeric_limits<double>::infinity());

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "../../flights/nearby_flights.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -40,7 +39,6 @@ class FlownDeputies {
       : problem_(problem),
         axes_(axes),
         time_(time),
-        flights_(problem.system),
         predictor_(flow),
         before_flight_(std::move(before_flight)) {}
 
@@ -75,7 +73,6 @@ class FlownDeputies {
   const ComputedProblem& problem_;
   const Matrix6& axes_;
   double time_;
-  NearbyFlights flights_;
   DeputyPredictor predictor_;
   std::function<void()> before_flight_;
 };
