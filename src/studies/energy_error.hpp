@@ -1,5 +1,6 @@
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "hamjet/algebra/extended.hpp"
@@ -13,8 +14,9 @@ std::vector<Extended> extended(const std::vector<double>& state);
 
 /// Energies in extended precision, and their changes relative to the energy at the start (absolute
 /// where that is 0). The energy is the quantity that the system keeps, of which changes are errors;
-/// of a system that keeps none (DynamicalSystem::conserved_quantity) it is the Hamiltonian. All
-/// times are those of the system's clock.
+/// of a system that keeps none (DynamicalSystem::conserved_quantity) it is the Hamiltonian, whose
+/// changes are no errors, so that it is evaluated in double precision. All times are those of the
+/// system's clock.
 class EnergyError {
  public:
   EnergyError(const DynamicalSystem& system, const std::vector<double>& start,
@@ -29,7 +31,11 @@ class EnergyError {
   double terms(const std::vector<Extended>& state) const;
 
  private:
-  DifferentiableFunction<Extended> energy_;
+  using Kept = DifferentiableFunction<Extended>;
+  using Changing = DifferentiableFunction<double>;
+  static std::variant<Kept, Changing> energy_of(const DynamicalSystem& system);
+
+  std::variant<Kept, Changing> energy_;
   Extended initial_ = 0;
 };
 
