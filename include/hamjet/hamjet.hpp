@@ -41,6 +41,7 @@
 #include "hamjet/maps/flow_map.hpp"
 #include "hamjet/maps/generating_function.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
+#include "hamjet/maps/partial_inversion.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/maps/truncation_estimate.hpp"

@@ -1,16 +1,14 @@
 #include "hamjet/astronomy/body_position.hpp"
 
 #include <erfa.h>
-#include <erfam.h>
 
 #include <algorithm>
 
+#include "physical_constants.hpp"
 #include "sampled_days.hpp"
 
 namespace hamjet {
 namespace {
-
-constexpr double astronomical_unit_km = ERFA_DAU / 1000;
 
 FunctionOfDate position_of(PerturbingBody body, double unit_km) {
   const double unit = astronomical_unit_km / unit_km;

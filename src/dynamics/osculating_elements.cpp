@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "hamjet/error.hpp"
-#include "newton_in_bracket.hpp"
+#include "kepler_root.hpp"
 
 namespace hamjet {
 namespace {

@@ -8,6 +8,7 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
 #include "hamjet/algebra/calculus.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {

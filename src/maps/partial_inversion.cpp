@@ -1,3 +1,5 @@
+#include "hamjet/maps/partial_inversion.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -9,8 +11,8 @@
 #include "../algebra/instantiated_real.hpp"
 #include "../algebra/singular_values.hpp"
 #include "../integrators/momentum_unit.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/maps/generating_function.hpp"
 
 namespace hamjet {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <boost/math/constants/constants.hpp>
 
-#include "../dynamics/newton_in_bracket.hpp"
+#include "../dynamics/kepler_root.hpp"
 #include "extended_vectors.hpp"
 #include "hamjet/error.hpp"
 

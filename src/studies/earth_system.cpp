@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "../astronomy/physical_constants.hpp"
 #include "../astronomy/sunlight.hpp"
 #include "../dynamics/fields/atmosphere_field.hpp"
 #include "../dynamics/fields/exponential_atmosphere.hpp"
@@ -150,17 +150,6 @@ bool bulges(const EarthSettings& earth) {
   return earth.atmosphere && earth.atmosphere->model == AtmosphereModel::harris_priester;
 }
 
-/// The Earth's angular velocity, rad/s (IERS Conventions 2010, table 1.1: 7.292115e-5).
-constexpr double earth_rate = 7.292115e-5;
-
-/// The apex of the bulge follows the Sun by two hours (Montenbruck and Gill, section 3.5).
-constexpr double bulge_lag = std::numbers::pi / 6;
-
-/// The pressure of the Sun's light on what absorbs it, at one astronomical unit, N/m^2: the nominal
-/// total solar irradiance of 1361 W/m^2 (IAU 2015 Resolution B3) over the speed of light.
-constexpr double pressure_of_sun = 1361.0 / 299792458;
-constexpr double astronomical_unit_km = 149597870.7;
-
 /// Canonical units, and the times between which bodies are to be known.
 struct EarthClock {
   EarthClock(const SystemSettings& settings, double canonical_radius)
@@ -276,7 +265,7 @@ DynamicalSystem earth_system(const SystemSettings& settings, double canonical_ra
     atmosphere.least = density(least);
     atmosphere.greatest = density(greatest);
     atmosphere.sun = sun;
-    atmosphere.lag = bulge_lag;
+    atmosphere.lag = harris_priester_lag;
     atmosphere.exponent = air.bulge_exponent;
   } else {
     atmosphere.least = density(steady_profile(air));

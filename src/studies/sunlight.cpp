@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "../algebra/scalar_search.hpp"
+#include "../astronomy/physical_constants.hpp"
 #include "../astronomy/sampled_days.hpp"
 #include "../astronomy/shadow.hpp"
 #include "../integrators/taylor_flow.hpp"

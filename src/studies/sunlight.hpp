@@ -8,9 +8,6 @@
 
 namespace hamjet {
 
-/// The radius of the Sun's disc, km: the nominal solar radius of IAU 2015 Resolution B3.
-inline constexpr double sun_radius_km = 695700;
-
 /// The light along the orbit from a state (q, p), perhaps with parameters, which stands where the
 /// clock of the model `earth` is 0: from a quarter of a day before the settings' span to as much
 /// after it. The orbit is flown once, with all of its forces. Edges are found as it meets them, and

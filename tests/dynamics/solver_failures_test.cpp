@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "dynamics/newton_in_bracket.hpp"
+#include "dynamics/kepler_root.hpp"
 #include "hamjet/dynamics/mean_elements.hpp"
 #include "support/errors.hpp"
 

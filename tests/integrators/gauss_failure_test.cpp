@@ -119,7 +119,7 @@ TEST(GaussStepRule, AStepThatShowsNoNumberIsTooLong) {
   bad = good;
   bad.defect = bad.slope = infinite;
   EXPECT_EQ(rule.error_estimate(bad, 0.1, decaying), infinite);
-  EXPECT_EQ(rule.step_factor(infinite, 1e-12), 0.1);
+  EXPECT_EQ(rule.reduction(infinite, 1e-12), 0.5);
   bad.first_gradient = bad.last_gradient = infinite;
   EXPECT_EQ(rule.time_scale_ratio(bad), 1);
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include "density_profile.hpp"
 
 namespace hamjet {
@@ -16,5 +18,8 @@ struct HarrisPriesterTable {
 };
 
 HarrisPriesterTable harris_priester_table();
+
+/// The angle by which the greatest density follows the Sun: two hours (the same section).
+inline constexpr double harris_priester_lag = std::numbers::pi / 6;
 
 }  // namespace hamjet

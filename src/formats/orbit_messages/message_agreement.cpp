@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "../../algebra/hermite_cubic.hpp"
+#include "../../astronomy/physical_constants.hpp"
 #include "../../dynamics/celestial_bodies.hpp"
 #include "../../text/letter_case.hpp"
 
@@ -27,9 +28,6 @@ constexpr std::array<std::string_view, 6> frames_of_J2000 = {"EME2000", "GCRF", 
                                                              "ICRF1",   "ICRF2", "ICRF3"};
 constexpr double angle_of_frame_bias = 1.2e-7;
 constexpr double angle_of_precession = 0.03;
-
-/// The Earth's rate of rotation, rad/s (IERS Conventions (2010), table 1.2).
-constexpr double earth_rate = 7.292115e-5;
 
 bool is_among(const auto& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -207,9 +207,8 @@ class GaussIntegrator {
                                       stages_, control_.last_mode_weights(), jet_.value(), order_));
         }
       }
-      growth = is_solved ? control_.step_factor(error) : 0.5;
       if (error <= largest_excess() * *settings_.tolerance) {
-        growth *= control_.time_scale_ratio();
+        growth = control_.growth(error);
         statistics_.record_step_error(error);
         break;
       }
@@ -219,7 +218,7 @@ class GaussIntegrator {
       } else {
         guess_.reset();
       }
-      h *= Real(std::min(growth, 0.9));
+      h *= Real(control_.reduction(error));
     }
     at_.previous_step = h;
     guess_ = {Real(1), h};
@@ -239,7 +238,7 @@ class GaussIntegrator {
         at_.time = end;
         at_.lost_time = 0;
       }
-      at_.proposed = h * Real(std::clamp(growth, 0.1, 4.0));
+      at_.proposed = h * Real(growth);
       if (end != problem_.duration && h != wanted) {
         at_.proposed = proposal_after_cut(at_.proposed, wanted);
       }

@@ -77,14 +77,15 @@ class GaussStepControl {
   /// The weights of the Legendre mode of degree s - 1.
   const P& last_mode_weights() const { return stages_.system().coefficients().modes.back(); }
 
-  double step_factor(double error) const { return rule_.step_factor(error, *settings_.tolerance); }
+  double reduction(double error) const { return rule_.reduction(error, *settings_.tolerance); }
 
-  double time_scale_ratio() {
+  /// GaussStepRule::growth of the step whose stages are known.
+  double growth(double error) {
     StepMeasures step;
     const P gradients = stages_.gradient_sizes();
     step.first_gradient = static_cast<double>(gradients.lane(0));
     step.last_gradient = static_cast<double>(gradients.lane(settings_.stages - 1));
-    return rule_.time_scale_ratio(step);
+    return rule_.growth(error, *settings_.tolerance, rule_.time_scale_ratio(step));
   }
 
  private:

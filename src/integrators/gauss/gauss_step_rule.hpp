@@ -71,9 +71,16 @@ class GaussStepRule {
     return *std::max_element(errors.begin(), errors.end());
   }
 
-  double step_factor(double error, double tolerance) const {
-    if (error <= 0) return 4;
-    return std::clamp(0.95 * std::pow(tolerance / error, 0.5 / s_), 0.1, 4.0);
+  /// The length of the next step in that of one that is accepted, from the ratio of time scales in
+  /// it (time_scale_ratio).
+  double growth(double error, double tolerance, double time_scales) const {
+    return std::clamp(step_factor(error, tolerance) * time_scales, least_factor, largest_factor);
+  }
+
+  /// The length in which a step is tried again that had too large an error; infinite where its
+  /// stages were not found.
+  double reduction(double error, double tolerance) const {
+    return std::isfinite(error) ? std::min(step_factor(error, tolerance), 0.9) : 0.5;
   }
 
   /// The ratio of the time scales at the end and at the start of the step, from the slopes'
@@ -83,7 +90,8 @@ class GaussStepRule {
     if (step.first_gradient == 0 || step.last_gradient == 0) return 1;
     const double ratio = step.first_gradient / step.last_gradient;
     if (std::isnan(ratio)) return 1;
-    return std::clamp(is_second_order_ ? std::sqrt(ratio) : ratio, 0.25, 4.0);
+    return std::clamp(is_second_order_ ? std::sqrt(ratio) : ratio, 1 / largest_factor,
+                      largest_factor);
   }
 
   /// Number of periods of the linearised motion in a step.
@@ -101,6 +109,14 @@ class GaussStepRule {
   }
 
  private:
+  static constexpr double least_factor = 0.1;
+  static constexpr double largest_factor = 4;
+
+  double step_factor(double error, double tolerance) const {
+    if (error <= 0) return largest_factor;
+    return std::clamp(0.95 * std::pow(tolerance / error, 0.5 / s_), least_factor, largest_factor);
+  }
+
   /// A measured factor. With it the global error of all coefficients of degree 0..4 over a few
   /// revolutions is near the tolerance, for 4 to 16 stages.
   static constexpr double error_constant = 100;

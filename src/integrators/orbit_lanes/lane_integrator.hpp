@@ -255,8 +255,7 @@ class LaneIntegrator {
     const bool is_sound = std::isfinite(error);
     lane.guess = is_solved && is_sound ? Guess::repeated_step : Guess::none;
     lane.guessed_from = lane.step;
-    const double growth = is_sound ? control_.rule().step_factor(error, lane.tolerance) : 0.5;
-    lane.proposed = lane.step * std::min(growth, 0.9);
+    lane.proposed = lane.step * control_.rule().reduction(error, lane.tolerance);
   }
 
   void accept(std::size_t k, double error) {
@@ -276,8 +275,8 @@ class LaneIntegrator {
       return;
     }
     statistics.record_step_error(error);
-    const double growth = control_.rule().step_factor(error, lane.tolerance) *
-                          control_.rule().time_scale_ratio(control_.measures(k));
+    const double growth = control_.rule().growth(
+        error, lane.tolerance, control_.rule().time_scale_ratio(control_.measures(k)));
     const double stop = ends_.after(lane.time);
     const double remaining = (stop - lane.time) + lane.lost_time;
     add_compensated(lane.time, lane.lost_time, lane.step);
@@ -285,7 +284,7 @@ class LaneIntegrator {
       lane.time = stop;
       lane.lost_time = 0;
     }
-    lane.proposed = lane.step * std::clamp(growth, 0.1, 4.0);
+    lane.proposed = lane.step * growth;
     if (stop != duration_ && lane.step != lane.wanted) {
       lane.proposed = proposal_after_cut(lane.proposed, lane.wanted);
     }

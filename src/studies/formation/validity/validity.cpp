@@ -14,7 +14,7 @@
 #include "../single_transfer.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
-#include "reach_limit.hpp"
+#include "limiting_coordinates.hpp"
 #include "slice_maxima.hpp"
 
 namespace hamjet {

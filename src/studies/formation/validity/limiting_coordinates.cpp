@@ -1,4 +1,4 @@
-#include "reach_limit.hpp"
+#include "limiting_coordinates.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
