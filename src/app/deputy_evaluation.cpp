@@ -143,6 +143,12 @@ EvaluatedScene evaluated_jet(const io::StoredJet& stored) {
 }
 
 io::StoredJet stored_polynomials(const EvaluatedScene& scene) {
+  if (scene.coordinates == JetCoordinates::flow_box && !scene.chief.flow_box) {
+    throw Error(
+        ErrorKind::usage,
+        "jet.coordinates: polynomials of flow boxes are not kept where the forces depend on "
+        "the time, got flow-box, must be other coordinates");
+  }
   io::StoredJet stored = scene.chief;
   stored.nominal_final = scene.stored_end;
   // They are evaluated in double precision, whatever they were stored in.

@@ -33,6 +33,17 @@ std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
   settings.tolerance = 4 * std::numeric_limits<double>::epsilon();
   settings.controls_all_degrees = true;
   const SixNumbers<double> start = six_numbers(problem.nominal);
+  if (coordinates == JetCoordinates::flow_box && !problem.system->is_autonomous()) {
+    ComputedProblem linear = problem;
+    linear.space = SeriesSpace::create(problem.variables.size(), 1);
+    IntegratorSettings precise;
+    precise.stages = stages;
+    precise.tolerance = settings.tolerance;
+    JetPropagation jets(linear, precise);
+    const FlowJet<double> jet = jets.advance_to(scene.duration);
+    return driven_flow_box_deputy_flow(problem.system, problem.start_time + scene.duration,
+                                       driven_flow_box(scene, linear, jets, jet));
+  }
   if (coordinates == JetCoordinates::flow_box) {
     const ZonalGravity field = orbit_field(scene);
     FlowBoxPropagation<double> boxes(field, section_chart(start, canonical_mu), start, 1, settings);

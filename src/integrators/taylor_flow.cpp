@@ -179,15 +179,27 @@ void TaylorFlow::evaluate(std::size_t lane, double time, std::span<double> state
 
 void TaylorFlow::advance(std::span<double> states, const ClockTime& start_time,
                          std::span<const double> times) {
-  const double start = start_time.in<double>();
+  std::array<double, lanes> starts;
+  starts.fill(start_time.in<double>());
   const std::size_t size = system_->dimension();
   for (std::size_t first = 0; first < times.size(); first += lanes) {
     const std::size_t count = std::min(lanes, times.size() - first);
-    advance_lanes(states.subspan(first * size, count * size), start, times.subspan(first, count));
+    advance_lanes(states.subspan(first * size, count * size), std::span(starts).first(count),
+                  times.subspan(first, count));
   }
 }
 
-void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
+void TaylorFlow::advance(std::span<double> states, std::span<const double> start_times,
+                         std::span<const double> times) {
+  const std::size_t size = system_->dimension();
+  for (std::size_t first = 0; first < times.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, times.size() - first);
+    advance_lanes(states.subspan(first * size, count * size), start_times.subspan(first, count),
+                  times.subspan(first, count));
+  }
+}
+
+void TaylorFlow::advance_lanes(std::span<double> states, std::span<const double> start_times,
                                std::span<const double> times) {
   constexpr int most_expansions = 1000000;
   // A step shorter than this fraction of the whole time runs into a collision.
@@ -199,7 +211,7 @@ void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
   // Lanes without a state of their own repeat the first one, so that they are finite.
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const std::size_t own = lane < times.size() ? lane : 0;
-    set_state(lane, start_time, state(own), std::copysign(1.0, times[own]));
+    set_state(lane, start_times[own], state(own), std::copysign(1.0, times[own]));
   }
   const auto is_moving = [](double time) { return time != 0; };
   for (int count = 0; std::any_of(left.begin(), left.end(), is_moving); ++count) {
@@ -215,7 +227,7 @@ void TaylorFlow::advance_lanes(std::span<double> states, double start_time,
       }
       evaluate(lane, step, state(lane));
       left[lane] -= step;
-      set_state(lane, start_time + (times[lane] - left[lane]), state(lane),
+      set_state(lane, start_times[lane] + (times[lane] - left[lane]), state(lane),
                 std::copysign(1.0, times[lane]));
     }
   }

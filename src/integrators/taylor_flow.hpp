@@ -73,10 +73,14 @@ class TaylorFlow {
   /// that is not finite, become NaN. `states` has 2n numbers for each.
   void advance(std::span<double> states, const ClockTime& start_time,
                std::span<const double> times);
+  /// The same for states of which each stands at a time of its own of the system's clock.
+  void advance(std::span<double> states, std::span<const double> start_times,
+               std::span<const double> times);
 
  private:
   /// As `advance`, for no more states than lanes.
-  void advance_lanes(std::span<double> states, double start_time, std::span<const double> times);
+  void advance_lanes(std::span<double> states, std::span<const double> start_times,
+                     std::span<const double> times);
   void set_state(std::size_t lane, double time, std::span<const double> state, double direction);
   /// The reach of a lane's polynomial alone.
   double reach_of_series(std::size_t lane) const;

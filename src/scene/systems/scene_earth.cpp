@@ -299,13 +299,6 @@ void refuse_fixed_flows(const TableReader& root, const Scene& scene) {
   constexpr std::string_view other_model =
       "or system.model = \"zonal-gravity\" with the field's zonal harmonics";
   const TableReader jet = root.table("jet");
-  for (const auto& [key, coordinates] : {std::pair("coordinates", scene.coordinates.start),
-                                         std::pair("end_coordinates", scene.coordinates.end)}) {
-    if (coordinates != JetCoordinates::flow_box || !jet.has(key)) continue;
-    jet.fail(key,
-             fmt::format("{}, got \"flow-box\", must be other coordinates, such as \"auto\", {}",
-                         why, other_model));
-  }
   if (has_time_shift(scene.symmetry)) {
     jet.fail("symmetry", fmt::format("{}, got \"rotation-and-time\", must be \"rotation\" or "
                                      "\"none\", {}",

@@ -176,6 +176,10 @@ std::optional<std::string> reason_without_charted_jet(const Scene& scene) {
   if (scene.variables.size() != scene.nominal.size()) {
     return "coordinates are of orbits expanded in all six variables";
   }
+  if (scene.coordinates == JetCoordinates::flow_box && scene.system.earth) {
+    return "flow boxes of forces that depend on the time are made where deputies are predicted, by "
+           "eval, validity, motion, transfer, assign and uncertainty; a run keeps none";
+  }
   if (scene.coordinates == JetCoordinates::flow_box && scene.precision == Precision::extended) {
     return "flow boxes are of double precision";
   }

@@ -12,6 +12,7 @@
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
+#include "jets_about_time.hpp"
 
 namespace hamjet {
 namespace {
@@ -98,10 +99,27 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
   return charted_deputy_flow(first, start, last, end, in_charts(jet, first, start, last));
 }
 
+std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
+                                                     const ComputedProblem& problem,
+                                                     const JetPropagation& at_time,
+                                                     const FlowJet<double>& jet) {
+  if (jet.size() != 6 || jet[0].space().variables() != 6) {
+    throw Error(ErrorKind::scene,
+                "jet.variables: flow boxes of forces that depend on the time are expanded in the "
+                "six numbers of the state, got other variables, should be left out");
+  }
+  const SixNumbers<double> start = six_numbers(problem.nominal);
+  const double oblateness = scene.system.J[2] * scene.canonical_radius * scene.canonical_radius;
+  return std::make_shared<const DrivenFlowBox>(start, jets_about_time(at_time, jet, jet[0].order()),
+                                               at_time.time(), canonical_mu, oblateness);
+}
+
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
                                              const IntegratorSettings& settings,
                                              const CoordinatesAtEnds& coordinates)
-    : start_(six_numbers(problem.nominal)),
+    : scene_(scene),
+      problem_(problem),
+      start_(six_numbers(problem.nominal)),
       coordinates_(coordinates),
       parameters_(deputy_parameters(scene)),
       time_s_(scene.units.time_s) {
@@ -111,7 +129,9 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
         fmt::format("jet.end_coordinates: {}: flow boxes are of both ends", name_of(coordinates)));
   }
   in_coordinates(coordinates.start, "at the start", [&] {
-    if (coordinates.start == JetCoordinates::flow_box) {
+    if (coordinates.start == JetCoordinates::flow_box && !problem.system->is_autonomous()) {
+      jets_.emplace(problem, settings);
+    } else if (coordinates.start == JetCoordinates::flow_box) {
       field_ = orbit_field(scene);
       boxes_.emplace(field_, section_chart(start_, canonical_mu), start_, scene.order,
                      gauss_settings_of(settings));
@@ -131,6 +151,13 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
       return flow_box_deputy_flow(field_, *last_box_);
     });
   }
+  if (coordinates_.start == JetCoordinates::flow_box) {
+    const FlowJet<double> at_end = jets_->advance_to(time);
+    return in_coordinates(coordinates_.end, when, [&] {
+      last_driven_ = driven_flow_box(scene_, problem_, *jets_, at_end);
+      return driven_flow_box_deputy_flow(problem_.system, problem_.start_time + time, last_driven_);
+    });
+  }
   const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));
   return in_coordinates(coordinates_.end, when,
                         [&] { return deputy_flow_of_jet(jet, start_, coordinates_, parameters_); });
@@ -138,6 +165,7 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
 
 std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {
   if (last_box_) return flow_box_coordinates(field_, *last_box_);
+  if (last_driven_) return last_driven_->end_coordinates();
   const std::vector<Series<double>>& z = last_jet_->jet();
   if (coordinates_.end == JetCoordinates::cartesian) return without_constants(z);
   SixNumbers<double> end;
@@ -148,18 +176,21 @@ std::vector<Series<double>> DeputyFlowPropagation::end_coordinates() const {
 }
 
 std::array<std::string, 6> DeputyFlowPropagation::end_coordinate_names() const {
+  if (last_driven_) return last_driven_->end_coordinate_names();
   return last_box_ ? flow_box_coordinate_names(*last_box_->end)
                    : coordinate_names(chart_of(coordinates_.end));
 }
 
 std::optional<std::size_t> DeputyFlowPropagation::end_period_place() const {
+  if (last_driven_) return 1;
   if (!last_box_ || !last_box_->end->is_bound()) return std::nullopt;
   return 1;
 }
 
 std::vector<std::string> DeputyFlowPropagation::variable_names() const {
   if (!last_box_) {
-    const auto names = coordinate_names(chart_of(coordinates_.start));
+    const auto names = last_driven_ ? last_driven_->variable_names()
+                                    : coordinate_names(chart_of(coordinates_.start));
     return {names.begin(), names.end()};
   }
   // The time since the section and the ignored coordinate bypass the polynomials.
@@ -169,7 +200,8 @@ std::vector<std::string> DeputyFlowPropagation::variable_names() const {
 }
 
 std::vector<std::string> DeputyFlowPropagation::value_names() const {
-  const std::array<std::string, 6> names = end_coordinate_names();
+  const std::array<std::string, 6> names =
+      last_driven_ ? last_driven_->value_names() : end_coordinate_names();
   std::vector<std::string> result(names.begin(), names.end());
   // The period is that of the start, so that it is no coordinate of the end.
   if (last_box_) result.erase(result.begin() + 1);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "../../charts/driven_flow_box.hpp"
 #include "../jets_along_time.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
@@ -34,6 +35,14 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
                                                const CoordinatesAtEnds& coordinates,
                                                std::span<const double> parameters = {});
 
+/// The flow box of forces that depend on the time, about a problem's start: from the jet at a time
+/// and the propagation that stands there. The scene tells the field's oblateness. Throws as
+/// DrivenFlowBox and the integrator.
+std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
+                                                     const ComputedProblem& problem,
+                                                     const JetPropagation& at_time,
+                                                     const FlowJet<double>& jet);
+
 /// Predictions of a scene's polynomials for deputies, in some coordinates, from time to time.
 class DeputyFlowPropagation {
  public:
@@ -60,7 +69,8 @@ class DeputyFlowPropagation {
   std::vector<std::string> variable_names() const;
   std::vector<std::string> value_names() const;
 
-  /// The flow-box map at the last time; no value for other coordinates.
+  /// The flow-box map at the last time; no value for other coordinates, and where the forces depend
+  /// on the time.
   const std::optional<FlowBoxMap<double>>& flow_box() const noexcept { return last_box_; }
 
   const CoordinatesAtEnds& coordinates() const noexcept { return coordinates_; }
@@ -68,15 +78,18 @@ class DeputyFlowPropagation {
   const IntegrationStatistics& statistics() const;
 
  private:
+  const Scene& scene_;
+  const ComputedProblem& problem_;
   ZonalGravity field_;
   SixNumbers<double> start_;
   CoordinatesAtEnds coordinates_;
   std::vector<double> parameters_;      ///< the deputy's less the chief's
   double time_s_;                       ///< the canonical unit of time, for messages
-  std::optional<JetPropagation> jets_;  ///< absent for flow boxes
+  std::optional<JetPropagation> jets_;  ///< absent for flow boxes of a field
   std::optional<FlowBoxPropagation<double>> boxes_;
-  std::optional<FlowMap<double>> last_jet_;     ///< absent for flow boxes
-  std::optional<FlowBoxMap<double>> last_box_;  ///< for flow boxes only
+  std::optional<FlowMap<double>> last_jet_;           ///< absent for flow boxes
+  std::shared_ptr<const DrivenFlowBox> last_driven_;  ///< where the forces depend on the time
+  std::optional<FlowBoxMap<double>> last_box_;        ///< for flow boxes only
 };
 
 /// A note about a scene whose flow boxes bring no advantage: on an orbit that is not an ellipse, or

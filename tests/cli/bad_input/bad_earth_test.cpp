@@ -197,9 +197,6 @@ TEST_F(BadEarth, WhatNeedsAFlowThatIsTheSameAtEveryStart) {
   const string order = "order = 1\n";
   const std::vector<Mistake> mistakes = {
       {order,
-       "order = 1\ncoordinates = \"flow-box\"\n",
-       {"bad.toml:13:15: jet.coordinates: needs a flow that is the same at every start"}},
-      {order,
        "order = 1\nsymmetry = \"rotation-and-time\"\n",
        {"bad.toml:13:12: jet.symmetry: needs a flow", "must be \"rotation\" or \"none\""}},
       {"[[integrator]]",

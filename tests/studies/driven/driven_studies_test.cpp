@@ -232,13 +232,6 @@ TEST(DrivenStudies, WhatNeedsAutonomyIsRefused) {
     study_bounded(scene);
   });
   refused("frozen orbit", [] { study_frozen_orbit(driven_chief(1)); });
-  refused("flow box", [] {
-    Scene scene = driven_chief(1);
-    scene.coordinates = JetCoordinates::flow_box;
-    scene.validity.emplace();
-    scene.validity->times = {1};
-    study_validity(scene);
-  });
   refused("symmetry", [] {
     Scene scene = driven_chief(1);
     scene.symmetry = FlowSymmetry::rotation_and_time;

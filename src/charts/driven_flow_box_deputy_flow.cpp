@@ -1,0 +1,79 @@
+#include <cmath>
+#include <utility>
+
+#include "../integrators/taylor_flow.hpp"
+#include "driven_flow_box.hpp"
+
+namespace hamjet {
+namespace {
+
+class DrivenDeputyFlow : public DeputyFlow {
+ public:
+  DrivenDeputyFlow(SharedSystem system, const ClockTime& end_time,
+                   std::shared_ptr<const DrivenFlowBox> box)
+      : DeputyFlow(box->values(), box->chief_end()),
+        system_(std::move(system)),
+        end_time_(end_time.in<double>()),
+        start_(box->start_state()),
+        box_(std::move(box)) {
+    set_derivatives(box_->entry_derivative(), box_->exit_derivative());
+  }
+
+ private:
+  struct CarriedBack : Passage {
+    explicit CarriedBack(const DrivenDeputyFlow& of) : flow(of), taylor(of.system_) {}
+
+    void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
+               std::span<SixNumbers<double>> carried) override {
+      for (std::size_t k = 0; k < deviations.size(); ++k) {
+        SixNumbers<double> state = flow.start_;
+        for (std::size_t i = 0; i < 6; ++i) state[i] += deviations[k][i];
+        carried[k] = flow.box_->variables(state);
+        std::copy(carried[k].begin(), carried[k].end(), &variables[6 * k]);
+      }
+    }
+
+    void leave(std::span<const SixNumbers<double>> carried, std::span<const double> values,
+               std::span<SixNumbers<double>> deviations) override {
+      std::array<double, 6 * block> states;
+      std::array<double, block> starts;
+      std::array<double, block> times;
+      const std::size_t count = carried.size();
+      for (std::size_t k = 0; k < count; ++k) {
+        SixNumbers<double> of_one;
+        std::copy_n(&values[6 * k], 6, of_one.begin());
+        const auto [state, time] = flow.box_->crossing(carried[k], of_one);
+        std::copy(state.begin(), state.end(), &states[6 * k]);
+        times[k] = std::isfinite(time) ? -time : 0;
+        starts[k] = flow.end_time_ - times[k];
+        if (!std::isfinite(time)) states[6 * k] = time;
+      }
+      taylor.advance(std::span(states).first(6 * count), std::span(starts).first(count),
+                     std::span(times).first(count));
+      for (std::size_t k = 0; k < count; ++k) {
+        for (std::size_t i = 0; i < 6; ++i) {
+          deviations[k][i] = states[6 * k + i] - flow.chief_end()[i];
+        }
+      }
+    }
+
+    const DrivenDeputyFlow& flow;
+    TaylorFlow taylor;
+  };
+  std::unique_ptr<Passage> passage() const override { return std::make_unique<CarriedBack>(*this); }
+
+  SharedSystem system_;
+  double end_time_;  ///< the clock's
+  SixNumbers<double> start_;
+  std::shared_ptr<const DrivenFlowBox> box_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeputyFlow> driven_flow_box_deputy_flow(const SharedSystem& system,
+                                                        const ClockTime& end_time,
+                                                        std::shared_ptr<const DrivenFlowBox> box) {
+  return std::make_unique<DrivenDeputyFlow>(system, end_time, std::move(box));
+}
+
+}  // namespace hamjet

@@ -1,0 +1,69 @@
+#include "jets_about_time.hpp"
+
+#include <Eigen/Dense>
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+#include <cstddef>
+
+namespace hamjet {
+namespace {
+
+/// Nodes to each side of the one in the middle.
+constexpr Eigen::Index side = 10;
+constexpr Eigen::Index nodes = 2 * side + 1;
+/// Half of the span of the nodes, in units of the distance over the speed.
+constexpr double half_span = 0.35;
+
+using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Node j, from -1 to 1.
+long double node(Eigen::Index j) {
+  using boost::math::constants::pi;
+  if (j == side) return 0;
+  return -std::cos(pi<long double>() * (static_cast<long double>(j) + 0.5L) / nodes);
+}
+
+/// The numbers by which values at the nodes become coefficients of powers: row k is of power k.
+/// This is badly conditioned, for which the weights are made with more digits than they are used.
+LongMatrix weights_of_powers() {
+  LongMatrix powers(nodes, nodes);
+  for (Eigen::Index j = 0; j < nodes; ++j) {
+    powers(j, 0) = 1;
+    for (Eigen::Index k = 1; k < nodes; ++k) powers(j, k) = powers(j, k - 1) * node(j);
+  }
+  return powers.fullPivLu().inverse();
+}
+
+}  // namespace
+
+std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
+                                             const FlowJet<double>& jet, int order) {
+  static const LongMatrix weights = weights_of_powers();
+  const double distance = std::hypot(jet[0][0], jet[1][0], jet[2][0]);
+  const double span = half_span * distance / std::hypot(jet[3][0], jet[4][0], jet[5][0]);
+  std::vector<FlowJet<double>> at_nodes(static_cast<std::size_t>(nodes));
+  at_nodes[side] = jet;
+  for (const int sign : {-1, 1}) {
+    JetPropagation onward = at_time;
+    for (Eigen::Index j = side + sign; j >= 0 && j < nodes; j += sign) {
+      at_nodes[static_cast<std::size_t>(j)] =
+          onward.advance_to(at_time.time() + span * static_cast<double>(node(j)));
+    }
+  }
+  std::vector<FlowJet<double>> result = {jet};
+  for (int k = 1; k <= order; ++k) {
+    FlowJet<double>& power = result.emplace_back();
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      Series<double> sum(jet[c].space_pointer());
+      for (Eigen::Index j = 0; j < nodes; ++j) {
+        const auto weight =
+            static_cast<double>(weights(k, j) / std::pow(static_cast<long double>(span), k));
+        sum += at_nodes[static_cast<std::size_t>(j)][c] * weight;
+      }
+      power.push_back(std::move(sum));
+    }
+  }
+  return result;
+}
+
+}  // namespace hamjet
