@@ -283,6 +283,7 @@ TEST(ExpressionText, TellsMistakesWithTheirPlace) {
       {"x + y)", {"\")\" without \"(\"", "column 6"}},
       {"()", {"nothing between parentheses"}},
       {"x*)", {"an operand is missing", "got \")\" at column 3"}},
+      {")x", {"an operand is missing", "got \")\" at column 1"}},
       {"2x", {"no operator", "got \"x\" at column 2", "* of a product"}},
       {"x y", {"no operator", "got \"y\" at column 3"}},
       {"x (y)", {"no function", "got \"x\" at column 1", "x*( )"}},

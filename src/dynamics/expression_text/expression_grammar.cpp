@@ -194,7 +194,7 @@ SyntaxProblem problem_at(std::string_view text, std::size_t place) {
     if (text.substr(place).starts_with(other.text)) return {place, length, other.what, other.right};
   }
   if (c == ')' && is_after_operand) return {place, length, "\")\" without \"(\"", "left out"};
-  if (c == ')' && text[last] == '(') {
+  if (c == ')' && last != text.npos && text[last] == '(') {
     return {place, length, "nothing between parentheses", an_operand};
   }
   if (c == ',' && is_after_operand) {
