@@ -8,6 +8,7 @@
 namespace hamjet::io {
 
 std::string_view frame_name(RelativeFrame frame) {
+  if (frame == RelativeFrame::coordinates) return "coordinates";
   return frame == RelativeFrame::inertial ? "inertial" : "RTN";
 }
 
@@ -18,6 +19,7 @@ std::string_view derivatives_name(RelativeFrame frame) {
     case RelativeFrame::rtn_inertial:
       return "inertial";
     case RelativeFrame::inertial:
+    case RelativeFrame::coordinates:
       break;
   }
   return "";
@@ -36,6 +38,8 @@ std::string_view velocities_text(RelativeFrame frame) {
       return "as seen from the turning RTN axes";
     case RelativeFrame::rtn_inertial:
       return "as seen from axes that do not turn, along RTN";
+    case RelativeFrame::coordinates:
+      return "that are the rates of the coordinates";
     case RelativeFrame::inertial:
       break;
   }
@@ -43,12 +47,12 @@ std::string_view velocities_text(RelativeFrame frame) {
 }
 
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame) {
-  if (frame == RelativeFrame::inertial) return {"x", "y", "z"};
+  if (is_along_coordinates(frame)) return {"x", "y", "z"};
   return {"R", "T", "N"};
 }
 
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
-  if (frame == RelativeFrame::inertial) return {"x", "y", "z"};
+  if (is_along_coordinates(frame)) return {"x", "y", "z"};
   return {"r", "t", "n"};
 }
 

@@ -9,18 +9,19 @@
 
 namespace hamjet::io {
 
-/// A frame in the words of scenes, "RTN" or "inertial", and its derivatives: "rotating", "inertial"
-/// or, where the axes do not turn, an empty text.
+/// A frame in the words of scenes, "RTN", "inertial" or "coordinates", and its derivatives:
+/// "rotating", "inertial" or, where the axes do not turn, an empty text.
 std::string_view frame_name(RelativeFrame frame);
 std::string_view derivatives_name(RelativeFrame frame);
 
-/// A frame in words: "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial".
+/// A frame in words: "RTN with rotating derivatives", "RTN with inertial derivatives", "inertial",
+/// "coordinates".
 std::string frame_text(RelativeFrame frame);
 
 /// Which velocities a frame has: "as seen from the turning RTN axes" and the like.
 std::string_view velocities_text(RelativeFrame frame);
 
-/// Letters of the three axes: R, T, N or x, y, z.
+/// Letters of the three axes: R, T, N or x, y, z, the first to the third coordinate.
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);

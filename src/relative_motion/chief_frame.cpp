@@ -1,6 +1,7 @@
 #include "hamjet/relative_motion/chief_frame.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "hamjet/error.hpp"
 
@@ -23,7 +24,12 @@ Eigen::Vector3d vector_at(std::span<const double> numbers, std::size_t first) {
 ChiefFrame::ChiefFrame(std::span<const double> chief, const MetricUnits& units, RelativeFrame frame)
     : units_(units) {
   require_size(chief, "chief");
-  if (frame == RelativeFrame::inertial) return;
+  if (frame == RelativeFrame::coordinates) {
+    to_velocity_ = units.velocities.by_momenta;
+    to_momentum_ = to_velocity_.inverse();
+    turn_ = units.velocities.by_positions;
+  }
+  if (is_along_coordinates(frame)) return;
   const Eigen::Vector3d r = vector_at(chief, 0);
   const Eigen::Vector3d v = vector_at(chief, 3);
   const Eigen::Vector3d h = r.cross(v);
@@ -38,29 +44,31 @@ ChiefFrame::ChiefFrame(std::span<const double> chief, const MetricUnits& units, 
   axes_.row(2) = h.normalized();
   axes_.row(1) = h.cross(r).normalized();
   if (frame == RelativeFrame::rtn_rotating) {
-    angular_velocity_ = {0, 0, h.norm() / r.squaredNorm()};
+    const double rate = h.norm() / r.squaredNorm();
+    turn_(0, 1) = rate;
+    turn_(1, 0) = -rate;
   }
 }
 
 std::vector<double> ChiefFrame::deviation(const RelativeState& state) const {
   const Eigen::Vector3d position = state.position_m / units_.length_m;
-  const Eigen::Vector3d velocity =
-      state.velocity_m_s / units_.velocity_m_s() + angular_velocity_.cross(position);
+  const Eigen::Vector3d momentum =
+      to_momentum_ * (state.velocity_m_s / units_.velocity_m_s() - turn_ * position);
   const Eigen::Vector3d dq = axes_.transpose() * position;
-  const Eigen::Vector3d dp = axes_.transpose() * velocity;
+  const Eigen::Vector3d dp = axes_.transpose() * momentum;
   return {dq[0], dq[1], dq[2], dp[0], dp[1], dp[2]};
 }
 
 RelativeState ChiefFrame::relative(std::span<const double> deviation) const {
   require_size(deviation, "deviation");
   const Eigen::Vector3d position = axes_ * vector_at(deviation, 0);
-  const Eigen::Vector3d velocity = axes_ * vector_at(deviation, 3);
+  const Eigen::Vector3d momentum = axes_ * vector_at(deviation, 3);
   return {position * units_.length_m,
-          (velocity - angular_velocity_.cross(position)) * units_.velocity_m_s()};
+          (to_velocity_ * momentum + turn_ * position) * units_.velocity_m_s()};
 }
 
 Eigen::Vector3d ChiefFrame::velocity_change_m_s(const Eigen::Vector3d& canonical) const {
-  return axes_ * canonical * units_.velocity_m_s();
+  return to_velocity_ * (axes_ * canonical) * units_.velocity_m_s();
 }
 
 }  // namespace hamjet

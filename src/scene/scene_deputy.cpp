@@ -24,7 +24,7 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
   deputy.check_keys();
   require_relative_motion(deputy, scene);
   DeputySettings settings;
-  settings.frame = read_relative_frame(deputy);
+  settings.frame = read_relative_frame(deputy, nominal);
   settings.start =
       read_relative_state(deputy, nominal, settings.frame,
                           is_anywhere ? DeputyPlace::anywhere : DeputyPlace::near_chief);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../studies/formation/coordinate_deviations.hpp"
 #include "../text/letter_case.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
@@ -44,8 +45,9 @@ std::vector<double> equal_parts(const TableReader& table, int count, double dura
 
 std::vector<SceneKey> relative_frame_keys(const Absence& frame) {
   return {
-      {"frame", form::choice({"RTN", "inertial"}), frame,
-       "radial, transverse, normal of the chief, or inertial; LVLH has two meanings"},
+      {"frame", form::choice({"RTN", "inertial", "coordinates"}), frame,
+       "radial, transverse, normal of the chief, or inertial (LVLH has two meanings); of a system "
+       "without an orbit its coordinates, which then are the only frame"},
       {"derivatives", form::choice({"rotating", "inertial"}),
        absent::other("`\"rotating\"`, of RTN"),
        "velocities as seen from the turning axes (at the rate of the osculating orbit), or not; "
@@ -80,12 +82,9 @@ std::string_view read_instant(const TableReader& table, const Nominal& nominal, 
   return key;
 }
 
-void require_relative_motion(const TableReader& table, const Scene& scene) {
-  if (!is_orbit(scene.system.model)) {
-    table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
-                               "zonal-gravity or kepler",
-                               model_name(scene.system.model)));
-  }
+namespace {
+
+void require_all_variables(const TableReader& table, const Scene& scene) {
   const std::vector<std::string_view> names = variable_names(scene.system);
   if (scene.variables.size() != names.size()) {
     std::vector<std::string_view> given;
@@ -99,6 +98,25 @@ void require_relative_motion(const TableReader& table, const Scene& scene) {
                "\"double\": every answer is proved by flying in double precision, whose rounding "
                "hides what more digits would tell");
   }
+}
+
+}  // namespace
+
+void require_relative_motion(const TableReader& table, const Scene& scene) {
+  if (!is_orbit(scene.system.model)) {
+    table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
+                               "zonal-gravity or kepler",
+                               model_name(scene.system.model)));
+  }
+  require_all_variables(table, scene);
+}
+
+void require_deviations(const TableReader& table, const Scene& scene) {
+  if (is_orbit(scene.system.model)) return require_relative_motion(table, scene);
+  if (const std::string missing = missing_for_deviations(scene); !missing.empty()) {
+    table.fail("", missing);
+  }
+  require_all_variables(table, scene);
 }
 
 namespace {
@@ -221,13 +239,37 @@ void refuse_other_frames(const TableReader& table) {
   }
 }
 
+/// The only frame of a system without an orbit.
+RelativeFrame frame_of_coordinates(const TableReader& of_frame, const TableReader& of_derivatives) {
+  if (of_frame.has("frame") && of_frame.choice("frame") != 2) {
+    of_frame.fail("frame", fmt::format("axes of an orbit, got {}, must be \"coordinates\" or left "
+                                       "out: this system has no chief with such axes",
+                                       of_frame.found("frame")));
+  }
+  if (of_derivatives.has("derivatives")) {
+    of_derivatives.fail("derivatives",
+                        fmt::format("of RTN alone, got {}, must be left out: velocities are the "
+                                    "rates of the coordinates",
+                                    of_derivatives.found("derivatives")));
+  }
+  return RelativeFrame::coordinates;
+}
+
 }  // namespace
 
-RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback) {
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback,
+                                  const Nominal& nominal) {
   const TableReader& of_frame = table.has("frame") ? table : fallback;
   const TableReader& of_derivatives = table.has("derivatives") ? table : fallback;
+  if (!nominal.orbit) return frame_of_coordinates(of_frame, of_derivatives);
   if (of_frame.has("frame")) refuse_other_frames(of_frame);
-  const bool is_inertial = of_frame.has("frame") && of_frame.choice("frame") == 1;
+  const std::size_t choice = of_frame.has("frame") ? of_frame.choice("frame") : 0;
+  if (choice == 2) {
+    of_frame.fail("frame",
+                  "the frame of systems without an orbit, got \"coordinates\", must be \"RTN\" or "
+                  "\"inertial\": the coordinates of an orbit are along the inertial axes");
+  }
+  const bool is_inertial = choice == 1;
   // The derivatives that the other table states for its own frame mean nothing for a frame that has
   // none.
   if (is_inertial && table.has("frame") && !table.has("derivatives")) {
@@ -246,8 +288,8 @@ RelativeFrame read_relative_frame(const TableReader& table, const TableReader& f
   return are_inertial ? RelativeFrame::rtn_inertial : RelativeFrame::rtn_rotating;
 }
 
-RelativeFrame read_relative_frame(const TableReader& table) {
-  return read_relative_frame(table, table);
+RelativeFrame read_relative_frame(const TableReader& table, const Nominal& nominal) {
+  return read_relative_frame(table, table, nominal);
 }
 
 bool has_collision(const TableReader& root) {
@@ -269,6 +311,7 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
         warning_head, root.table("transfer").head("kind"), in_quotes(scene.transfer->kind),
         in_quotes(name_of(scene.coordinates))));
   }
+  if (!is_orbit(scene.system.model)) return warnings;
   const double distance_m =
       Eigen::Vector3d(scene.nominal.data()).norm() * scene.units.length_km * 1000;
   const double chief_m_s = Eigen::Vector3d(scene.nominal.data() + 3).norm() *

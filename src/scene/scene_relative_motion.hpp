@@ -19,6 +19,8 @@ inline constexpr int most_deputies = 200;
 /// Refuses a scene on which these studies cannot work: one without an orbit, with a jet that is not
 /// expanded in all six variables, or in extended precision.
 void require_relative_motion(const TableReader& table, const Scene& scene);
+/// The same for the studies that also serve systems without an orbit, along three coordinates.
+void require_deviations(const TableReader& table, const Scene& scene);
 
 /// The keys of read_relative_state, of read_arrival, and of read_place.
 std::vector<SceneKey> relative_state_keys();
@@ -49,9 +51,11 @@ std::vector<double> read_jet_times(const TableReader& jet, const Scene& scene,
                                    const Nominal& nominal);
 
 /// The frame that the keys `frame` and `derivatives` give. A missing key is taken from `fallback`,
-/// if the table's own frame allows it; the default is RTN with rotating derivatives.
-RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback);
-RelativeFrame read_relative_frame(const TableReader& table);
+/// if the table's own frame allows it; the default is RTN with rotating derivatives. A nominal that
+/// is no orbit has the frame of its coordinates alone.
+RelativeFrame read_relative_frame(const TableReader& table, const TableReader& fallback,
+                                  const Nominal& nominal);
+RelativeFrame read_relative_frame(const TableReader& table, const Nominal& nominal);
 
 /// Where a deputy may be: within reach of expansions about the chief, or anywhere. The latter holds
 /// for the other spacecraft of an encounter, which has polynomials about its own trajectory.

@@ -184,7 +184,7 @@ RelativeState read_in_form(const TableReader& table, const Nominal& nominal, Rel
 RelativeState read_along_axes(const TableReader& table, const Nominal& nominal,
                               DeputyPlace place = DeputyPlace::near_chief) {
   const MetricUnits units = metric_units(nominal);
-  const bool is_near = place == DeputyPlace::near_chief;
+  const bool is_near = place == DeputyPlace::near_chief && nominal.orbit.has_value();
   constexpr double no_limit = std::numeric_limits<double>::infinity();
   RelativeState state;
   state.position_m =
@@ -205,7 +205,7 @@ struct GivenForm {
   bool is_own_orbit = false;
 };
 
-GivenForm form_of(const TableReader& table) {
+GivenForm form_of(const TableReader& table, const Nominal& nominal) {
   struct Given {
     std::string_view key;
     GivenForm form;
@@ -217,6 +217,19 @@ GivenForm form_of(const TableReader& table) {
   }
   for (const std::string_view key : {"position_m", "velocity_m_s"}) {
     if (table.has(key)) given.push_back({key, {}});
+  }
+  if (!nominal.orbit) {
+    if (given.empty()) {
+      table.fail("position_m",
+                 "missing, must be an array of 3 finite numbers, the deviation of the "
+                 "coordinates from the nominal");
+    }
+    for (const Given& one : given) {
+      if (!one.form.is_own_orbit && !one.form.form) continue;
+      table.fail(one.key,
+                 "a form of deputies in an orbit, must be position_m and velocity_m_s: "
+                 "this system has no orbit");
+    }
   }
   if (given.empty()) {
     table.fail("position_m",
@@ -273,14 +286,14 @@ std::vector<SceneKey> arrival_keys() {
 
 RelativeState read_relative_state(const TableReader& table, const Nominal& nominal,
                                   RelativeFrame frame, DeputyPlace place) {
-  const GivenForm given = form_of(table);
+  const GivenForm given = form_of(table, nominal);
   if (given.is_own_orbit) return read_own_orbit(table, nominal, frame, place);
   if (given.form) return read_in_form(table, nominal, frame, *given.form, place);
   return read_along_axes(table, nominal, place);
 }
 
 ArrivalState read_arrival(const TableReader& table, const Nominal& nominal) {
-  const GivenForm given = form_of(table);
+  const GivenForm given = form_of(table, nominal);
   ArrivalState arrival;
   if (given.form) {
     arrival.in_form = {*given.form, numbers_of_form(table, *given.form)};

@@ -36,6 +36,11 @@ const TableDescription& thruster_table() {
 
 ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
   table.check_keys();
+  if (!is_orbit(scene.system.model)) {
+    table.fail("",
+               "for spacecraft in an orbit, must be left out: along the coordinates of this "
+               "system velocities change by impulses");
+  }
   ThrusterSettings settings;
   if (table.exactly_one_of({"acceleration_m_s2", "thrust_N"}) == "thrust_N") {
     table.require({"mass_kg", "specific_impulse_s"});

@@ -42,9 +42,9 @@ bool names_frame(const TableReader& table) {
 
 /// The frame that a table or [transfer] names; otherwise that of the scene's deputy, or RTN.
 RelativeFrame frame_of(const TableReader& table, const TableReader& transfer,
-                       const std::optional<DeputySettings>& deputy) {
+                       const std::optional<DeputySettings>& deputy, const Nominal& nominal) {
   const bool is_named = names_frame(table) || names_frame(transfer);
-  return deputy && !is_named ? deputy->frame : read_relative_frame(table, transfer);
+  return deputy && !is_named ? deputy->frame : read_relative_frame(table, transfer, nominal);
 }
 
 /// Reads one end of the transfer; `fallback` is the table [transfer].
@@ -53,7 +53,7 @@ FramedTable read_end(const TableReader& fallback, std::string_view key, const No
                      const std::optional<DeputySettings>& deputy, State& state) {
   const TableReader end = fallback.table(key);
   end.check_keys();
-  const RelativeFrame frame = frame_of(end, fallback, deputy);
+  const RelativeFrame frame = frame_of(end, fallback, deputy, nominal);
   if constexpr (std::is_same_v<State, ArrivalState>) {
     state = read_arrival(end, nominal);
   } else {
@@ -77,10 +77,12 @@ std::string read_kind(const TableReader& transfer) {
   return kind;
 }
 
-/// The margin about singular times, in canonical units.
-double read_singular_margin(const TableReader& transfer, const Nominal& nominal) {
+/// The margin about singular times, in canonical units. Where there is no orbit, the last transfer
+/// time stands for the period.
+double read_singular_margin(const TableReader& transfer, const Nominal& nominal, double last) {
   const double period_of_circle =
-      2 * std::numbers::pi * std::pow(initial_distance(nominal.state), 1.5);
+      nominal.orbit ? 2 * std::numbers::pi * std::pow(initial_distance(nominal.state), 1.5)
+                    : std::abs(last);
   const double period = nominal.period_s ? convert<double>(*nominal.period_s / nominal.scale.time_s)
                                          : period_of_circle;
   const bool has_seconds = transfer.has("singular_margin_s");
@@ -111,7 +113,7 @@ Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSetting
   const std::vector<double> axes = transfer.positive_numbers("keep_out_m", 3);
   const Eigen::Vector3d semi_axes(axes[0], axes[1], axes[2]);
   // Along inertial axes only the flight shows whether an end lies in the ellipsoid.
-  if (!has_ends || settings.frame == RelativeFrame::inertial) return semi_axes;
+  if (!has_ends || is_along_coordinates(settings.frame)) return semi_axes;
   for (const bool is_start : {true, false}) {
     // Only the flight shows whether an end of another form lies in the ellipsoid.
     if (!is_start && !settings.end.is_along_axes()) continue;
@@ -236,7 +238,7 @@ const TableDescription& transfer_table() {
         {"singular_margin_s", margin, absent::other("`singular_margin_orbits`"),
          "a transfer nearer than this to a singular time is marked"},
         {"singular_margin_orbits", margin, absent::value(default_revolutions),
-         "the same in periods of the nominal"},
+         "the same in periods of the nominal; without an orbit, in parts of the last time"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
          "optimal: also the least velocity change by any number of impulses at any times"},
         {"thrust", form::choice({"impulses", "energy-optimal"}), absent::value("impulses"),
@@ -273,14 +275,32 @@ const TableDescription& transfer_table() {
   return table;
 }
 
+namespace {
+
+/// Two impulses and a listed time are what a system without an orbit has.
+void refuse_what_needs_orbit(const TableReader& transfer) {
+  for (const std::string_view key : {"impulses", "thrust", "keep_out_m", "revolutions",
+                                     "longest_coast_s", "waypoint", "singular_margin_orbits"}) {
+    const bool is_two = key == "impulses" && transfer.has(key) && transfer.choice(key) == 0;
+    if (!transfer.has(key) || is_two) continue;
+    transfer.fail(key,
+                  fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
+                              "coordinates of this system are transfers of two impulses",
+                              transfer.found(key)));
+  }
+}
+
+}  // namespace
+
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends) {
   transfer.check_keys();
-  require_relative_motion(transfer, scene);
+  require_deviations(transfer, scene);
+  if (!nominal.orbit) refuse_what_needs_orbit(transfer);
   TransferSettings settings;
   std::optional<FramedTable> first;
   if (transfer.has("frame")) {
-    first = {transfer, read_relative_frame(transfer), transfer.head("frame")};
+    first = {transfer, read_relative_frame(transfer, nominal), transfer.head("frame")};
   }
   const bool has_ends = needs_ends || transfer.has("start") || transfer.has("end");
   if (has_ends) {
@@ -297,13 +317,13 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     first = start ? *start : end;
     if (!start) settings.start = in_other_frame(transfer, nominal, *scene.deputy, end.frame);
   }
-  settings.frame = first ? first->frame : frame_of(transfer, transfer, scene.deputy);
+  settings.frame = first ? first->frame : frame_of(transfer, transfer, scene.deputy, nominal);
   settings.times = read_transfer_times(transfer, scene, nominal);
   settings.kind = read_kind(transfer);
   transfer.read_if_any("tolerance_m", settings.tolerance_m);
   transfer.read_if_any("refine", settings.refine);
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
-  settings.singular_margin = read_singular_margin(transfer, nominal);
+  settings.singular_margin = read_singular_margin(transfer, nominal, settings.times.back());
   transfer.read_if_any("impulses", settings.impulses);
   read_thrust(transfer, settings, has_ends);
   transfer.read_if_any("budget_m_s", settings.budget_m_s);

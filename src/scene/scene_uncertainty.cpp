@@ -19,8 +19,9 @@ constexpr double largest_seed = 1e15;
 
 /// The velocities of covariances are differences of inertial velocities unless the table says
 /// otherwise, as in CCSDS messages.
-RelativeFrame read_covariance_frame(const TableReader& table, const TableReader& fallback) {
-  const RelativeFrame frame = read_relative_frame(table, fallback);
+RelativeFrame read_covariance_frame(const TableReader& table, const TableReader& fallback,
+                                    const Nominal& nominal) {
+  const RelativeFrame frame = read_relative_frame(table, fallback, nominal);
   const bool says_derivatives = table.has("derivatives") || fallback.has("derivatives");
   return frame == RelativeFrame::rtn_rotating && !says_derivatives ? RelativeFrame::rtn_inertial
                                                                    : frame;
@@ -205,7 +206,7 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
                                         const Scene& scene, const Nominal& nominal,
                                         const TableReader* deputy) {
   StateUncertainty state;
-  state.frame = read_covariance_frame(table, fallback);
+  state.frame = read_covariance_frame(table, fallback, nominal);
   const Limits limits = limits_of(nominal);
   if (table.has("file")) {
     for (const std::string_view key : {"position_m", "velocity_m_s", "covariance_m_m_s"}) {
@@ -253,7 +254,7 @@ BurnUncertainty read_burn(const TableReader& burn, const TableReader& fallback,
                           const Nominal& nominal) {
   burn.check_keys();
   BurnUncertainty settings;
-  settings.frame = read_covariance_frame(burn, fallback);
+  settings.frame = read_covariance_frame(burn, fallback, nominal);
   const std::vector<double> change = burn.numbers("velocity_change_m_s", 3);
   settings.velocity_change_m_s = {change[0], change[1], change[2]};
   const double limit = limits_of(nominal).velocity_m_s;
@@ -319,7 +320,7 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
   uncertainty.check_keys();
   require_relative_motion(uncertainty, scene);
   UncertaintySettings settings;
-  settings.frame = read_covariance_frame(uncertainty, uncertainty);
+  settings.frame = read_covariance_frame(uncertainty, uncertainty, nominal);
   if (uncertainty.has("deputy")) {
     const TableReader deputy = uncertainty.table("deputy");
     deputy.check_keys();

@@ -38,11 +38,11 @@ const TableDescription& validity_table() {
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
                                const Nominal& nominal) {
   validity.check_keys();
-  require_relative_motion(validity, scene);
+  require_deviations(validity, scene);
   ValiditySettings settings;
   validity.read_if_any("tolerance_m", settings.tolerance_m);
   settings.times = read_transfer_times(validity, scene, nominal, default_times);
-  settings.frame = read_relative_frame(validity);
+  settings.frame = read_relative_frame(validity, nominal);
   if (validity.has("semi_axes")) settings.semi_axes = read_semi_axes(validity);
   validity.read_if_any("samples", settings.samples);
   return settings;

@@ -26,6 +26,18 @@ double momentum_per_length(const Scene& scene) {
   return is_orbit(scene.system.model) ? std::pow(initial_distance(scene.nominal), -1.5) : 1;
 }
 
+double size_of_nominal(const Scene& scene) {
+  if (is_orbit(scene.system.model)) return initial_distance(scene.nominal);
+  const std::size_t n = scene.nominal.size() / 2;
+  const auto norm = [&](std::size_t first) {
+    double sum = 0;
+    for (std::size_t i = first; i < first + n; ++i) sum += scene.nominal[i] * scene.nominal[i];
+    return std::sqrt(sum);
+  };
+  const double size = std::max(norm(0), norm(n));
+  return size > 0 ? size : 1;
+}
+
 FormationPoints::FormationPoints(const Scene& scene, const ComputedProblem& problem)
     : positions_(problem.degrees_of_freedom.size()), metres_(scene.units.length_km * 1000) {
   const double separation = scene.separation.value_or(0);

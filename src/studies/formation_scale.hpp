@@ -12,6 +12,10 @@ namespace hamjet {
 /// radius, and sqrt(k m) for the oscillator (momentum per length).
 double momentum_per_length(const Scene& scene);
 
+/// The length beside which deviations are small, in canonical units: an orbit's distance from the
+/// centre at the start; of other nominals the largest of |q| and |p| there, 1 at the origin.
+double size_of_nominal(const Scene& scene);
+
 /// Deviations of the scene's separation, at which jets are compared: along each axis of position,
 /// and random ones from a fixed seed, every second of which has a random momentum of the same size
 /// (see momentum_per_length).

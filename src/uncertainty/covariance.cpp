@@ -95,7 +95,7 @@ std::string direction_text(const Vector<double>& direction,
 }  // namespace
 
 std::array<std::string_view, 6> component_names(RelativeFrame frame) {
-  if (frame == RelativeFrame::inertial) return {"x", "y", "z", "vx", "vy", "vz"};
+  if (is_along_coordinates(frame)) return {"x", "y", "z", "vx", "vy", "vz"};
   return {"R", "T", "N", "vR", "vT", "vN"};
 }
 

@@ -304,7 +304,7 @@ TEST(SceneTransfer, NeedsAPeriodForOrbitsOnly) {
 
 TEST(SceneTransfer, ScenesThatHaveNoRelativeMotion) {
   expect_scene_error(oscillator + transfer,
-                     {"transfer: not available for this model, got harmonic-oscillator"});
+                     {"transfer: not available for this system, got one degree of freedom"});
   expect_scene_error(
       changed(circle_scene, "order = 3", "order = 3\nvariables = [\"x\", \"px\"]") + transfer,
       {"transfer: not defined for these jet.variables, got x, px, must be all of"});

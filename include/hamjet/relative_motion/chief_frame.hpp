@@ -18,7 +18,13 @@ enum class RelativeFrame {
   rtn_rotating,  ///< along RTN; velocities are derivatives seen from the rotating axes
   rtn_inertial,  ///< along RTN; velocities are differences of inertial velocities
   inertial,      ///< along the inertial axes of the orbit
+  coordinates,   ///< along the coordinates of a system without an orbit; velocities are their rates
 };
+
+/// Whether the axes are those of the positions themselves, so that there is no orbital plane.
+inline bool is_along_coordinates(RelativeFrame frame) {
+  return frame == RelativeFrame::inertial || frame == RelativeFrame::coordinates;
+}
 
 /// A deputy's state relative to its chief, in one of the frames.
 struct RelativeState {
@@ -26,16 +32,26 @@ struct RelativeState {
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
 };
 
-/// SI values of the canonical units of an orbit.
+/// How the rates of the coordinates follow from coordinates and momenta, where this is linear:
+/// dq' = W dp + G dq, in canonical units. Of an orbit, where momenta are velocities, W = 1 and
+/// G = 0; of coordinates that turn at the rate w about the third axis G = w (0 1 0, -1 0 0, 0 0 0).
+struct VelocityLaw {
+  Eigen::Matrix3d by_momenta = Eigen::Matrix3d::Identity();  ///< W, which has an inverse
+  Eigen::Matrix3d by_positions = Eigen::Matrix3d::Zero();    ///< G
+};
+
+/// SI values of the canonical units in which deviations are computed, and what a velocity is.
 struct MetricUnits {
   double length_m = 1;
   double time_s = 1;
+  VelocityLaw velocities = {};  ///< used along RelativeFrame::coordinates alone
 
   double velocity_m_s() const { return length_m / time_s; }
 };
 
 /// A frame at one instant: it converts between relative states and the canonical deviations (dq,
-/// dp) from the chief, dp being the difference of the inertial velocities.
+/// dp) from the chief, dp being the difference of the inertial velocities; along coordinates it is
+/// that of the momenta, which VelocityLaw makes of rates.
 ///
 /// The rotating axes turn at the rate of the chief's osculating Kepler orbit,
 ///
@@ -57,15 +73,18 @@ class ChiefFrame {
   /// The relative state of a canonical deviation (dq, dp), the first 6 numbers.
   RelativeState relative(std::span<const double> deviation) const;
 
-  /// A velocity change, m/s along the frame's axes, from its canonical inertial components. It is
-  /// the same for rotating and inertial derivatives.
+  /// A velocity change, m/s along the frame's axes, from the canonical change of the momenta at one
+  /// place. It is the same for rotating and inertial derivatives.
   Eigen::Vector3d velocity_change_m_s(const Eigen::Vector3d& canonical) const;
   /// The components along the frame's axes of a vector given in inertial axes.
   Eigen::Vector3d along_axes(const Eigen::Vector3d& inertial) const { return axes_ * inertial; }
 
  private:
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();          ///< rows: the frame's axes
-  Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();  ///< along the axes, canonical
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  ///< rows: the frame's axes
+  /// Velocities along the axes are to_velocity_ dp + turn_ dq of deviations along them, canonical.
+  Eigen::Matrix3d to_velocity_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d to_momentum_ = Eigen::Matrix3d::Identity();  ///< the inverse
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Zero();
   MetricUnits units_;
 };
 

@@ -106,7 +106,12 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     if (has_chief) mark("chief", 2, {0, 0});
     charts.push_back(std::move(chart));
   }
-  const bool is_inertial = trajectory.frame == RelativeFrame::inertial;
+  const std::string_view axes =
+      trajectory.frame == RelativeFrame::coordinates ? "The axes x, y, z are the three coordinates."
+      : trajectory.frame == RelativeFrame::inertial
+          ? "The axes x, y, z are the inertial ones of the orbit."
+          : "R points away from the centre of the Earth, N along the orbit's angular momentum, T "
+            "completes them and points along the motion; the axes turn with the chief.";
   if (!has_chief) {
     charts.front().notes.push_back(
         fmt::format("So that the path can be seen {}.", far_chief_text(extent)));
@@ -117,10 +122,7 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
   charts.front().reading = fmt::format(
       "The deputy as it was flown, relative to the chief at the origin, in three projections of "
       "one scale for all axes; its colour is the time. {}",
-      is_inertial ? "The axes x, y, z are the inertial ones of the orbit."
-                  : "R points away from the centre of the Earth, N along the orbit's angular "
-                    "momentum, T completes them and points along the motion; the axes turn with "
-                    "the chief.");
+      axes);
   return charts;
 }
 

@@ -11,7 +11,9 @@
 namespace hamjet {
 
 int interval_count(const Scene& scene, double time, const IntervalCount& wanted) {
-  const double circle = 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5);
+  const double circle = is_orbit(scene.system.model)
+                            ? 2 * std::numbers::pi * std::pow(initial_distance(scene.nominal), 1.5)
+                            : std::abs(time);
   const double revolution = nominal_period(scene).value_or(circle);
   return static_cast<int>(
       std::clamp(std::ceil(wanted.each_revolution * std::abs(time) / revolution),
@@ -24,7 +26,7 @@ std::vector<double> paced_times(const Scene& scene, double time, int count) {
       2 / std::hypot(z[0], z[1], z[2]) - (z[3] * z[3] + z[4] * z[4] + z[5] * z[5]);
   const auto equal = [&](int k) { return time * k / count; };
   std::vector<double> times = {0};
-  if (!(inverse_axis > 0)) {
+  if (!is_orbit(scene.system.model) || !(inverse_axis > 0)) {
     for (int k = 1; k <= count; ++k) times.push_back(equal(k));
     return times;
   }

@@ -6,27 +6,49 @@
 
 #include "../descriptions/method_description.hpp"
 #include "../earth_system.hpp"
+#include "coordinate_deviations.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
-void require_formation_problem(const Scene& scene, bool has_table, std::string_view table) {
-  const auto refuse = [&](const std::string& problem) {
-    throw Error(ErrorKind::scene, fmt::format("{}: {}", table, problem));
-  };
-  if (!has_table) refuse("missing, the scene has no such table");
-  if (!is_orbit(scene.system.model))
-    refuse(
-        "is about a deputy and a chief in orbit, got a model "
-        "that is no orbit, must be zonal-gravity or kepler");
+namespace {
+
+[[noreturn]] void refuse(std::string_view table, const std::string& problem) {
+  throw Error(ErrorKind::scene, fmt::format("{}: {}", table, problem));
+}
+
+/// What all studies of deviations need, of orbits and others.
+void require_symplectic_jets(const Scene& scene, std::string_view table) {
   if (scene.variables.size() != scene.nominal.size()) {
-    refuse("needs the jet in all six variables, got jet.variables with fewer, must be left out");
+    refuse(table,
+           "needs the jet in all six variables, got jet.variables with fewer, must be left out");
   }
   if (scene.precision != Precision::double_precision) {
-    refuse("is computed in double precision, got precision = \"extended\", must be \"double\"");
+    refuse(table,
+           "is computed in double precision, got precision = \"extended\", must be \"double\"");
   }
   symplectic_integrator(scene);
+}
+
+}  // namespace
+
+void require_formation_problem(const Scene& scene, bool has_table, std::string_view table) {
+  if (!has_table) refuse(table, "missing, the scene has no such table");
+  if (!is_orbit(scene.system.model))
+    refuse(table,
+           "is about a deputy and a chief in orbit, got a model "
+           "that is no orbit, must be zonal-gravity or kepler");
+  require_symplectic_jets(scene, table);
+}
+
+void require_deviation_problem(const Scene& scene, bool has_table, std::string_view table) {
+  if (!has_table) refuse(table, "missing, the scene has no such table");
+  if (is_orbit(scene.system.model)) return require_formation_problem(scene, has_table, table);
+  if (const std::string missing = missing_for_deviations(scene); !missing.empty()) {
+    refuse(table, missing);
+  }
+  require_symplectic_jets(scene, table);
 }
 
 namespace {

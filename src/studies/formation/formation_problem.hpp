@@ -12,6 +12,10 @@ namespace hamjet {
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table);
 
+/// The same, but for the orbit, where the study also serves systems without one, along three
+/// coordinates (missing_for_deviations).
+void require_deviation_problem(const Scene& scene, bool has_table, std::string_view table);
+
 /// Whether the deputy has the chief's C_D A / m and C_R A / m.
 bool is_like_chief(const Scene& scene);
 

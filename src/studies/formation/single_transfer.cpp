@@ -9,13 +9,17 @@
 #include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
+#include "coordinate_deviations.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet {
 
 MetricUnits metric_units(const Scene& scene) {
-  return {scene.units.length_km * 1000, scene.units.time_s};
+  MetricUnits units{scene.units.length_km * 1000, scene.units.time_s};
+  if (is_orbit(scene.system.model) || !scene.own_system) return units;
+  if (const auto law = velocity_law(*scene.own_system, scene.nominal)) units.velocities = *law;
+  return units;
 }
 
 double rounding_of_flights(const ComputedProblem& problem, const FlowJet<double>& jet) {

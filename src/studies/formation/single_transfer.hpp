@@ -11,7 +11,7 @@
 
 namespace hamjet {
 
-/// SI values of a scene's units.
+/// SI values of a scene's units, and what the velocities of its deviations are.
 MetricUnits metric_units(const Scene& scene);
 
 /// Rounding of the positions of two flights, in canonical units: that of the end, and that of the

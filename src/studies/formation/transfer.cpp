@@ -70,7 +70,7 @@ double TransferAnswer::total_change_m_s() const {
 
 TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
                               const EarlierJet* earlier) {
-  require_formation_problem(asked, asked.transfer.has_value(), "transfer");
+  require_deviation_problem(asked, asked.transfer.has_value(), "transfer");
   require_states_alone(asked, "transfer");
   if (earlier != nullptr) require_one_spacecraft(asked, "transfer from an earlier jet");
   Scene scene = asked;
@@ -124,8 +124,11 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     const Stopwatch watch(result.seconds.impulses);
     if (const auto best = result.best_point()) {
       points.add_drift(ends, result.points[*best], true);
-      result.primer =
-          primer_history(scene, points.problem(), points.linear_flow(), result.points[*best]);
+      // The primer is that of impulses at any times, which are planned along orbits alone.
+      if (is_orbit(scene.system.model)) {
+        result.primer =
+            primer_history(scene, points.problem(), points.linear_flow(), result.points[*best]);
+      }
     }
   }
   if (!settings.waypoints.empty()) {
@@ -215,14 +218,15 @@ RelativeTrajectory fly_relative(const TransferResult& result, std::size_t point,
   const Scene scene = with_deputy_parameters(result.scene);
   const std::vector<double>& chief = scene.nominal;
   const MetricUnits units = metric_units(scene);
-  const bool is_inertial =
-      scene.transfer->frame == RelativeFrame::inertial && !has_orbital_plane(chief);
+  const RelativeFrame asked = scene.transfer->frame;
+  const bool has_axes_of_chief = asked != RelativeFrame::coordinates &&
+                                 !(asked == RelativeFrame::inertial && !has_orbital_plane(chief));
   const auto fly = [&](const RelativeState& start, const std::vector<double>& to) {
     std::vector<double> deviation =
         ChiefFrame(chief, units, scene.transfer->frame).deviation(start);
     for (const double difference : deputy_parameters(scene)) deviation.push_back(difference);
-    return flown_trajectory(
-        scene, deviation, is_inertial ? RelativeFrame::inertial : RelativeFrame::rtn_rotating, to);
+    return flown_trajectory(scene, deviation,
+                            has_axes_of_chief ? RelativeFrame::rtn_rotating : asked, to);
   };
   RelativeState start = scene.transfer->start;
   const int intervals = interval_count(scene, scene.duration, drawn_path);

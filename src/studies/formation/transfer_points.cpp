@@ -58,6 +58,7 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
                                TransferSeconds& seconds)
     : scene_(scene),
       settings_(*scene.transfer),
+      has_orbit_(is_orbit(scene.system.model)),
       seconds_(seconds),
       both_(scene),
       problem_(make_problem(with_deputy_coefficients(scene))),
@@ -89,7 +90,9 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
   // The flow goes a little beyond the last time, so that a singularity just after it is seen too.
   // It goes no further than a quarter of a revolution at the initial distance, within which there
   // is some singularity anyway.
-  const double quarter = std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5);
+  const double quarter =
+      has_orbit_ ? std::numbers::pi / 2 * std::pow(initial_distance(problem_.nominal), 1.5)
+                 : std::abs(last);
   const double margin = std::min(settings_.singular_margin, quarter);
   flow_.emplace(scene_, problem_, last + std::copysign(margin, last), checkpoints_per_revolution,
                 [&](double done) {
@@ -101,7 +104,7 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
       progress("singular times", static_cast<double>(k) / static_cast<double>(kinds_.size()));
     }
     for (SingularTime& found : hamjet::find_singular_times(flow, kinds_[k])) {
-      found.direction_rtn = along_rtn(flow.chief(found.time), found.direction);
+      if (has_orbit_) found.direction_rtn = along_rtn(flow.chief(found.time), found.direction);
       singular_times_.push_back(std::move(found));
     }
   }
@@ -267,6 +270,7 @@ void TransferPoints::add_drift(const RelativeTransfer& ends, TransferPoint& poin
   const MetricUnits units = metric_units(scene_);
   const std::vector<double> end = ends.end.deviation(chief, units, settings_.frame);
   point.arrived = ChiefFrame(chief, units, settings_.frame).relative(end);
+  if (!has_orbit_) return;
   // The coefficients of both end the states, and their difference the deviation.
   const std::vector<double> together = both_.of_chief(chief);
   point.drift = relative_drift(both_.scene(), together,

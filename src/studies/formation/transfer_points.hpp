@@ -109,6 +109,7 @@ class TransferPoints {
 
   const Scene& scene_;
   const TransferSettings& settings_;
+  bool has_orbit_;
   TransferSeconds& seconds_;
   FlownTogether both_;
   ComputedProblem problem_;                        ///< of spacecraft like the deputy

@@ -13,8 +13,8 @@
 namespace hamjet {
 
 Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
-                       std::span<const double> semi_axes, double velocity) {
-  const ChiefFrame at_chief(chief, MetricUnits{}, frame);
+                       std::span<const double> semi_axes, double velocity, const VelocityLaw& law) {
+  const ChiefFrame at_chief(chief, MetricUnits{1, 1, law}, frame);
   Matrix6 axes;
   for (std::size_t i = 0; i < 6; ++i) {
     RelativeState state;

@@ -17,9 +17,11 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// The canonical deviations, as columns, for unit coordinates of an ellipsoid whose semi-axes are
 /// along a frame's axes: three of position, and three of the same ellipsoid times a velocity. In a
-/// rotating frame the deviations of position contain a velocity too.
+/// rotating frame the deviations of position contain a velocity too. `law` is that of velocities
+/// along coordinates.
 Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
-                       std::span<const double> semi_axes, double velocity);
+                       std::span<const double> semi_axes, double velocity,
+                       const VelocityLaw& law = {});
 
 /// The unit coordinates, of position and of velocity, in whose direction the Hamiltonian grows most
 /// at the chief.

@@ -34,7 +34,7 @@ class ValidityStudy {
         progress_(progress),
         problem_(make_problem(scene)),
         metres_(metric_units(scene).length_m),
-        distance_(initial_distance(problem_.nominal)),
+        distance_(size_of_nominal(scene)),
         largest_separation_(largest_separation * distance_),
         tolerance_(settings_.tolerance_m / metres_) {
     result_.scene = scene;
@@ -63,7 +63,7 @@ class ValidityStudy {
   /// the same ellipsoid in velocity.
   void make_samples() {
     axes_ = ellipsoid_axes(problem_.nominal, settings_.frame, settings_.semi_axes,
-                           momentum_per_length(scene_));
+                           momentum_per_length(scene_), metric_units(scene_).velocities);
     std::mt19937_64 generator(1);
     for (int k = 0; k < settings_.samples; ++k) {
       samples_.push_back(random_coordinates(generator));
@@ -265,7 +265,7 @@ std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
 }  // namespace
 
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
-  require_formation_problem(scene, scene.validity.has_value(), "validity");
+  require_deviation_problem(scene, scene.validity.has_value(), "validity");
   require_one_spacecraft(scene, "validity");
   if (scene.coordinates != JetCoordinates::automatic) {
     ValidityResult result = ValidityStudy(scene, progress).run(scene.coordinates);
@@ -280,10 +280,12 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
 }
 
 ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
-  require_formation_problem(scene, scene.validity.has_value(), "validity");
+  require_deviation_problem(scene, scene.validity.has_value(), "validity");
   require_one_spacecraft(scene, "validity");
   ValidityInCoordinates all;
   for (const JetCoordinates coordinates : measured_coordinates) {
+    const bool is_of_orbits = coordinates != JetCoordinates::cartesian;
+    if (is_of_orbits && !is_orbit(scene.system.model)) continue;
     try {
       all.results.push_back(ValidityStudy(scene, progress).run(coordinates));
     } catch (const Error& error) {
