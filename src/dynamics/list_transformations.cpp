@@ -2,6 +2,8 @@
 #include <array>
 #include <functional>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "hamjet/detail/dynamics/expression.hpp"
@@ -54,6 +56,20 @@ Partials partial_derivatives(const Operation& o, std::span<const Expression> val
 
 std::array<Expression, 3> position_of(const FieldPart& part, std::span<const Expression> values) {
   return {values[part.position[0]], values[part.position[1]], values[part.position[2]]};
+}
+
+/// The operand x of a product x^2 x, and the product's slope 3 x^2 by it; no value for others. By
+/// the rule of products the derivative would be formed twice, of x and of x^2.
+std::optional<std::pair<std::size_t, Expression>> slope_of_cube(
+    const OperationList& list, const Operation& o, std::span<const Expression> values) {
+  if (o.code != OperationCode::product) return std::nullopt;
+  const auto is_square_of = [&](std::size_t square, std::size_t x) {
+    const Operation& candidate = list.operations()[square];
+    return candidate.code == OperationCode::square && candidate.u == x;
+  };
+  if (is_square_of(o.v, o.u)) return std::pair{std::size_t{o.u}, 3 * values[o.v]};
+  if (is_square_of(o.u, o.v)) return std::pair{std::size_t{o.v}, 3 * values[o.u]};
+  return std::nullopt;
 }
 
 /// Calls add(operand, derivative) with the derivatives of a field by its position.
@@ -198,6 +214,10 @@ OperationList gradient(const OperationList& list) {
             for_each_field_derivative(o, values, [&](std::size_t operand, const Expression& slope) {
               adjoint[operand] += adjoint[i] * slope;
             });
+            continue;
+          }
+          if (const auto cube = slope_of_cube(list, o, values)) {
+            adjoint[cube->first] += adjoint[i] * cube->second;
             continue;
           }
           const Partials partials = partial_derivatives(o, values, i);

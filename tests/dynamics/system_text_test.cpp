@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,54 @@ TEST(SystemText, CostsAsMuchAsTheSystemByName) {
   const DynamicalSystem named = zonal_gravity({1, 0.9, {{2, 1e-3}}});
   EXPECT_EQ(written.evaluated_list().nonlinear_operations(),
             named.evaluated_list().nonlinear_operations());
+}
+
+// However J2 and J3 are written, what is multiplied out is the same: as many series as the force
+// written by hand, and its values. The problem of three bodies needs one for each square and power
+// and one for each product of the two common factors with x, y, z: 3 + 2 + 3.
+TEST(SystemText, CostsAsMuchHoweverItIsWritten) {
+  const DynamicalSystem named =
+      zonal_gravity({1, Extended("0.9").convert_to<double>(), {{2, 1e-3}, {3, -2e-6}}});
+  const std::vector<double> state = {0.9, 0.2, -0.3, 0.1, 0.9, 0.4};
+  const auto expected = test::evaluate_list(named.vector_field, state);
+  for (const char* potential :
+       {"-1/r*(1 - J2*(R/r)^2*P2 - J3*(R/r)^3*P3)",
+        "-1/r*(1 - J2*(R/r)^2*(3*s^2 - 1)/2 - J3*(R/r)^3*s*(5*s^2 - 3)/2)",
+        "-1/r + J2*R^2*(3*z^2 - r^2)/(2*r^5) + J3*R^3*z*(5*z^2 - 3*r^2)/(2*r^7)",
+        "-1/r + J2*R^2*(3*z^2/r^2 - 1)/(2*r^3) + J3*R^3*z*(5*z^2/r^2 - 3)/(2*r^5)",
+        "-1/r + J2*R^2/r^3*(3*s^2 - 1)/2 + J3*R^3/r^4*(5*s^3 - 3*s)/2"}) {
+    SystemText text = written_zonals();
+    text.hamiltonian = std::string("(px^2 + py^2 + pz^2)/2 + ") + potential;
+    const DynamicalSystem written = make_system("written", text);
+    EXPECT_EQ(written.evaluated_list().nonlinear_operations(),
+              named.evaluated_list().nonlinear_operations())
+        << potential;
+    const auto field = test::evaluate_list(written.vector_field, state);
+    for (std::size_t i = 0; i < field.size(); ++i) {
+      EXPECT_NEAR(field[i], expected[i], 4e-15) << potential;
+    }
+  }
+  SystemText text;
+  text.coordinates = {"x", "y", "z"};
+  text.momenta = {"px", "py", "pz"};
+  text.parameters = {{"mu", "0.012"}};
+  text.hamiltonian =
+      "(px^2 + py^2 + pz^2)/2 + y*px - x*py - (1 - mu)/sqrt((x + mu)^2 + y^2 + z^2)"
+      " - mu/sqrt((x - 1 + mu)^2 + y^2 + z^2)";
+  const DynamicalSystem bodies = make_system("bodies", text);
+  EXPECT_EQ(bodies.evaluated_list().nonlinear_operations(), 8U);
+  // The equations of motion by hand.
+  const double x = state[0], y = state[1], z = state[2];
+  const double a = 0.988 / std::pow(std::hypot(x + 0.012, y, z), 3);
+  const double b = 0.012 / std::pow(std::hypot(x - 0.988, y, z), 3);
+  const std::vector<double> by_hand = {state[3] + y,
+                                       state[4] - x,
+                                       state[5],
+                                       state[4] - a * (x + 0.012) - b * (x - 0.988),
+                                       -state[3] - (a + b) * y,
+                                       -(a + b) * z};
+  const auto field = test::evaluate_list(bodies.vector_field, state);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(field[i], by_hand[i], 4e-15) << i;
 }
 
 // A vector field is the part of its lift where the adjoint variables vanish.

@@ -8,6 +8,7 @@
 #include "../../text/printable_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
+#include "../factored_field.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 
 namespace hamjet {
@@ -172,8 +173,20 @@ std::vector<double> state_parameter_values(const SystemText& text) {
 }
 
 DynamicalSystem make_system(std::string name, const SystemText& text) {
-  return with_found_rotation(make_system(std::move(name), hamiltonian_of(text), std::nullopt,
-                                         text.state_parameters.size()));
+  const std::size_t parameters = text.state_parameters.size();
+  DynamicalSystem system =
+      make_system(std::move(name), hamiltonian_of(text), std::nullopt, parameters);
+  if (text.is_hamiltonian()) {
+    if (auto field = factored_field(system.hamiltonian, parameters)) {
+      DynamicalSystem factored =
+          make_system(system.name, system.hamiltonian, std::move(field), parameters);
+      const auto cost = [](const DynamicalSystem& one) {
+        return one.evaluated_list().nonlinear_operations();
+      };
+      if (cost(factored) < cost(system)) system = std::move(factored);
+    }
+  }
+  return with_found_rotation(std::move(system));
 }
 
 void require_finite_at(const SystemText& text, const DynamicalSystem& system,
