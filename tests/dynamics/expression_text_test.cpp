@@ -243,6 +243,15 @@ TEST(ExpressionText, RandomExpressionsHaveTheirValuesJetsAndTexts) {
   EXPECT_EQ(compared, 200);
 }
 
+// The sum x + 1 + y^2 is read term by term; its beginning x + 1 is an operation of its own, later.
+TEST(ExpressionText, PrintsSumsThatBeginAsOthers) {
+  for (const char* text : {"1/sin(x + 1 + y^2) - (x + 1)^2", "(x + y + px)*(px + x)/(x + y)"}) {
+    const OperationList list = record_function(function_of(text));
+    EXPECT_TRUE(is_same_list(record_function(print_list(list, variables, {"hamiltonian"})), list))
+        << text;
+  }
+}
+
 TEST(ExpressionText, PrintsDerivedListsAndLongSums) {
   const std::vector<std::string> names = {"x", "y", "z", "px", "py", "pz"};
   const DynamicalSystem system =

@@ -13,6 +13,7 @@
 #include "../../text/scene_message.hpp"
 #include "expression_functions.hpp"
 #include "expression_part.hpp"
+#include "literal_sum.hpp"
 
 namespace hamjet {
 namespace {
@@ -173,32 +174,28 @@ class ParsedFunction {
   }
 
   Expression value_of(const Part& part) const {
-    std::vector<Expression> stack;
-    for (const ExpressionToken& token : part.tokens) {
-      const std::size_t operands = operands_of(token);
-      const std::span<const Expression> given(stack.data() + stack.size() - operands, operands);
-      const Expression value = apply(part, token, given);
-      if (value.is_constant() && !isfinite(value.constant())) {
-        fail_not_finite(part, token, given);
-      }
-      stack.resize(stack.size() - operands);
-      stack.push_back(value);
+    const std::vector<bool> goes_on = terms_of_sums(part.tokens);
+    std::vector<LiteralSum> stack;
+    for (std::size_t k = 0; k < part.tokens.size(); ++k) {
+      const ExpressionToken& token = part.tokens[k];
+      const std::size_t count = operands_of(token);
+      const std::span<const LiteralSum> operands(stack.data() + stack.size() - count, count);
+      const LiteralSum value = value_of(part, token, operands);
+      stack.erase(stack.end() - static_cast<std::ptrdiff_t>(count), stack.end());
+      stack.push_back(goes_on[k] ? value : value.recorded());
     }
-    return stack.back();
+    return stack.back().recorded();
   }
 
-  static std::size_t operands_of(const ExpressionToken& token) {
-    switch (token.kind) {
-      case TokenKind::number:
-      case TokenKind::name:
-        return 0;
-      case TokenKind::negate:
-        return 1;
-      case TokenKind::call:
-        return token.arguments;
-      default:
-        return 2;
-    }
+  LiteralSum value_of(const Part& part, const ExpressionToken& token,
+                      std::span<const LiteralSum> operands) const {
+    const auto sum = is_literal_ ? literal_sum(token.kind, operands) : std::nullopt;
+    if (sum) return *sum;
+    std::vector<Expression> given;
+    for (const LiteralSum& operand : operands) given.push_back(operand.recorded());
+    const Expression value = apply(part, token, given);
+    if (value.is_constant() && !isfinite(value.constant())) fail_not_finite(part, token, given);
+    return value;
   }
 
   Expression apply(const Part& part, const ExpressionToken& token,
