@@ -211,7 +211,7 @@ CLI::App* add_init_command(CLI::App& app, InitOptions& options) {
   command
       ->add_option("kind", options.kind,
                    "an orbit that is low, geostationary, a transfer between the two, or Molniya's; "
-                   "or a pair of satellites with a transfer")
+                   "a pair of satellites with a transfer; or equations of your own")
       ->check(CLI::IsMember(kind_names()));
   command
       ->add_option("--from", options.message,

@@ -67,7 +67,7 @@ class Init : public CommandTest {
 };
 
 TEST_F(Init, EveryKindRunsAsItIs) {
-  for (const char* kind : {"leo", "gto", "geo", "molniya", "pair", "zonal"}) {
+  for (const char* kind : {"leo", "gto", "geo", "molniya", "own", "pair", "zonal"}) {
     SCOPED_TRACE(kind);
     const std::string file = kind + std::string(".toml");
     const std::string said = succeed({"init", kind}).out;
@@ -102,7 +102,7 @@ TEST_F(Init, NothingIsReplaced) {
 }
 
 TEST_F(Init, MistakesAreNamed) {
-  expect_error({"init"}, 2, {"neither a kind nor --from", "geo, gto, leo, molniya, pair, zonal"});
+  expect_error({"init"}, 2, {"neither a kind nor --from", "geo, gto, leo, molniya, own, pair, zonal"});
   expect_error({"init", "leo", "--from", "x.opm"}, 2, {"a kind and --from"});
   expect_error({"init", "moon"}, 2, {"moon", "leo", "molniya"});
   expect_error({"init", "leo", "-o", "-"}, 2, {"--output: got -", "a scene is a file"});
