@@ -126,8 +126,9 @@ class EarthField(Field):
     def __init__(self, degree, order, sun, moon, epoch, orientation=None, air=None,
                  radiation_m2_kg=REAL(0)):
         """The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
-        factor of all densities; the light is that of C_R A / m."""
+        factor of all densities; the light is that of C_R A / m, without a shadow until light_chief."""
         self._settings = degree, order, sun, moon, epoch, orientation
+        self._lights = None
         self.air, self.radiation_m2_kg = air, radiation_m2_kg
         mu, radius, C, S = shipped_field()
         super().__init__(mu, radius)
@@ -146,8 +147,22 @@ class EarthField(Field):
                                          address(profiles))
 
     def of_spacecraft(self, drag_m2_kg, radiation_m2_kg):
-        """The same Earth for another spacecraft."""
-        return EarthField(*self._settings, (*self.air[:2], drag_m2_kg), radiation_m2_kg)
+        """The same Earth for another spacecraft, in the light of the same chief."""
+        air = self.air and (*self.air[:2], drag_m2_kg)
+        other = EarthField(*self._settings, air, radiation_m2_kg)
+        if self._lights:
+            other.share_light(self._lights)
+        return other
+
+    def light_chief(self, chief):
+        """Light with a shadow: what is seen of the Sun along the orbit of this chief."""
+        chief = np.array(chief, dtype=REAL)
+        LIBRARY.light_chief(self._earth, address(self._centre), address(chief))
+        self._lights = self
+
+    def share_light(self, of_chief):
+        LIBRARY.share_light(self._earth, of_chief._earth)
+        self._lights = of_chief  # whose flights find the light
 
     def __del__(self):
         LIBRARY.delete_earth(self._earth)

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "light.hpp"
+
 namespace attack {
 namespace {
 
@@ -352,6 +354,11 @@ Drag Earth::drag(const Vector& x, Real time) {
            turn * (w[0] * x[1] - w[1] * x[0])}};
 }
 
+Vector Earth::sun(Real time) {
+  const Values& now = slow(time);
+  return {now[4], now[5], now[6]};
+}
+
 Vector Earth::acceleration(const Vector& x, Real time) {
   const Real r3 = cube(x);
   Vector sum{};
@@ -373,7 +380,9 @@ Vector Earth::acceleration(const Vector& x, Real time) {
     // The irradiance of 1361 W/m^2 at one astronomical unit over the speed of light.
     const Values& now = slow(time);
     const Vector way = {now[4] - x[0], now[5] - x[1], now[6] - x[2]};
-    const Real pressure = 1361.0L / 299792458.0L * Real(ERFA_DAU) * Real(ERFA_DAU) / cube(way);
+    const Real seen = piece_ ? piece_->at(time) : 1;
+    const Real pressure =
+        seen * 1361.0L / 299792458.0L * Real(ERFA_DAU) * Real(ERFA_DAU) / cube(way);
     for (int i = 0; i < 3; ++i) sum[i] -= settings_.radiation_m2_kg * pressure * way[i];
   }
   for (int i = 0; i < 3; ++i) sum[i] -= settings_.mu * x[i] / r3;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace attack {
@@ -34,6 +36,9 @@ struct Drag {
   Vector wind{};
 };
 
+class Light;
+struct LightPiece;
+
 enum class Axes { itrf, eme2000, mod, tod };
 
 /// A row of finals2000A, with angles in radians.
@@ -52,7 +57,7 @@ struct EarthSettings {
   Real ut1_minus_tt_s;               ///< at all times, without rows
   std::vector<OrientationRow> rows;
   Air air;               ///< without profiles there is none
-  Real radiation_m2_kg;  ///< C_R A / m, of a spacecraft that is lit at all times
+  Real radiation_m2_kg;  ///< C_R A / m
 };
 
 class Earth {
@@ -63,6 +68,15 @@ class Earth {
   Vector acceleration(const Vector& x, Real time);
   bool has_air() const { return !settings_.air.profiles.empty(); }
   Drag drag(const Vector& x, Real time);
+  /// The Sun from the centre, along GCRF.
+  Vector sun(Real time);
+  Real radius() const { return settings_.radius; }
+  /// The light along a chief, which a flight asks for; without one it shines at all times.
+  Light* light() const { return light_.get(); }
+  const std::shared_ptr<Light>& shared_light() const { return light_; }
+  void set_light(std::shared_ptr<Light> light) { light_ = std::move(light); }
+  /// What is seen of the Sun in the step that follows; null: all of it.
+  void light_by(const LightPiece* piece) { piece_ = piece; }
   /// The matrix from GCRF.
   Matrix axes(Axes axes, Real time);
   /// d/dt of that to ITRF, per second.
@@ -85,6 +99,8 @@ class Earth {
   Vector harmonics(const Vector& x) const;
 
   EarthSettings settings_;
+  std::shared_ptr<Light> light_;
+  const LightPiece* piece_ = nullptr;
   std::vector<Real> of_diagonal_, first_factor_, second_factor_, of_slope_;
   std::map<long, Day> days_;
   std::map<std::ptrdiff_t, std::vector<std::array<Real, 8>>> between_rows_;

@@ -99,12 +99,34 @@ class EarthScene(Scene):
             table["spacecraft"]["radiation_m2_kg"] = float(light)
         return self.field.of_spacecraft(drag * REAL(self.density_factor), light)
 
+    def coefficients(self):
+        """What jets may be expanded in, with the chief's values."""
+        found = {}
+        if self.field.air:
+            found["drag_m2_kg"] = self.field.air[2] / REAL(self.density_factor)
+            found["density_factor"] = REAL(self.density_factor)
+        if self.field.radiation_m2_kg:
+            found["radiation_m2_kg"] = self.field.radiation_m2_kg
+        return found
+
+    def with_change(self, change):
+        """The field of a chief whose coefficients differ by so much."""
+        now = {name: value + change.get(name, 0) for name, value in self.coefficients().items()}
+        return self.field.of_spacecraft(
+            now.get("drag_m2_kg", REAL(0)) * now.get("density_factor", REAL(0)),
+            now.get("radiation_m2_kg", REAL(0)))
+
     def _draw_light(self, system, sun):
-        """Light without a shadow, in whose edges the extrapolation here would lose its order."""
         draw = self.draw
+        self.has_shadow = False
         if not sun or not draw.chance(0.35):
             return REAL(0)
-        system["radiation"], system["shadow"] = True, "none"
+        system["radiation"] = True
+        self.has_shadow = draw.chance(0.7)
+        if not self.has_shadow:
+            system["shadow"] = "none"
+        elif draw.chance(0.3):
+            system["shadow"] = "conical"
         light = draw.logarithmic(5e-4, 0.3)
         self.tables.setdefault("spacecraft", {})["radiation_m2_kg"] = light
         return REAL(light)
@@ -167,6 +189,8 @@ class EarthScene(Scene):
         k = orbit.elements_of(self.mu, self.chief)
         self.i, self.e = k["i"], orbit.eccentricity(self.mu, self.chief)
         self.has_node = True
+        if self.has_shadow:
+            self.field.light_chief(self.chief)
 
     def _draw_duration(self, jet, revolutions, may_go_back, whole):
         # Air that is dense brings an orbit down within days.

@@ -20,6 +20,8 @@ def _library():
                                    whole, whole, pointer]
     library.make_earth.restype = pointer
     library.delete_earth.argtypes = [pointer]
+    library.light_chief.argtypes = [pointer, pointer, pointer]
+    library.share_light.argtypes = [pointer, pointer]
     library.axes_of_earth.argtypes = [pointer, whole, pointer, pointer]
     library.tai_minus_utc.argtypes = [whole, whole, whole, pointer]
     library.tai_minus_utc.restype = ctypes.c_double

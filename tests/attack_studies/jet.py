@@ -22,25 +22,39 @@ ROUNDING = 2.0 ** -53
 OF_NUMBERS, OF_AXES, OF_ANGLE = 4, 16, 16
 
 
+STATES = ["x", "y", "z", "px", "py", "pz"]
+
+
 def draw(source):
-    return source.scene(revolutions=(0.05, source.one_of([1, 3, 10])), orders=(1, 2, 3, 4),
-                        weights=(1, 2, 2, 3), coordinates=False)
+    scene = source.scene(revolutions=(0.05, source.one_of([1, 3, 10])), orders=(1, 2, 3, 4),
+                         weights=(1, 2, 2, 3), coordinates=False)
+    scene.parameters = {}
+    if scene.is_earth:
+        scene.parameters = {name: value for name, value in scene.coefficients().items()
+                            if source.chance(0.5)}
+    if scene.parameters:
+        scene.tables["jet"]["variables"] = STATES + list(scene.parameters)
+    return scene
 
 
 class Jet:
     """jet.csv in units in which the chief's distance and the speed of a circle there are 1."""
 
     def __init__(self, path, scene):
-        names = ["x", "y", "z", "px", "py", "pz"]
+        # Parameters are in units of their own.
+        names = STATES + list(scene.parameters)
         distance = orbit.norm(scene.chief[:3])
         self.units = np.array([distance] * 3 + [np.sqrt(scene.mu / distance)] * 3)
         speed = scene.length / scene.time_unit
-        told = np.array([scene.length] * 3 + [speed] * 3) / self.units
+        told = np.append(np.array([scene.length] * 3 + [speed] * 3) / self.units,
+                         [1] * len(scene.parameters))
         terms = {}
         with open(path) as file:
             for row in csv.DictReader(file):
                 exponent = tuple(int(row[f"e_{n}"]) for n in names)
                 c = names.index(row["component"])
+                if c >= 6:
+                    continue
                 size = told[c] / np.prod(told ** np.array(exponent))
                 terms.setdefault(exponent, np.zeros(6, dtype=REAL))[c] = REAL(
                     row["coefficient"]) * size
@@ -65,7 +79,7 @@ def judge(judgement, scene, folder):
         return
     one = summary["runs"][0]
     jet = Jet(os.path.join(folder, "out", one["label"], "jet.csv"), scene)
-    told = np.array(summary["nominal_initial"], dtype=REAL)
+    told = np.array(summary["nominal_initial"], dtype=REAL)[:6]
     speed = scene.length / scene.time_unit
     told *= np.array([scene.length] * 3 + [speed] * 3) / jet.units
     start = scene.chief / jet.units
@@ -79,9 +93,10 @@ def judge(judgement, scene, folder):
         return
     random = np.random.default_rng(len(jet.exponents))
     for _ in range(LINES):
-        u = random.normal(size=6)
-        judge_line(judgement, scene, jet, np.asarray(u / np.linalg.norm(u), dtype=REAL), estimates,
-                   shift)
+        u = random.normal(size=6 + len(scene.parameters))
+        u = np.asarray(u / np.linalg.norm(u), dtype=REAL)
+        u[6:] *= np.array(list(scene.parameters.values()), dtype=REAL)
+        judge_line(judgement, scene, jet, u, estimates, shift)
     judge_surface(judgement, scene, run, summary)
 
 
@@ -112,9 +127,13 @@ def taylor_coefficients(scene, units, u, order):
     nodes = np.cos(angles)
     cosines = np.cos(np.outer(np.arange(POINTS), angles))
     while True:
-        starts = scene.chief + np.outer(width * nodes, u * units)
+        starts = scene.chief + np.outer(width * nodes, u[:6] * units)
         try:
-            ends = scene.field.to(starts, scene.duration) / units
+            if scene.parameters:
+                ends = np.array([scene.with_change(dict(zip(scene.parameters, x * u[6:]))).to(
+                    start, scene.duration) for x, start in zip(width * nodes, starts)]) / units
+            else:
+                ends = scene.field.to(starts, scene.duration) / units
         except FlightFailed:  # of a start too far from the chief
             width /= REAL(4)
             continue
