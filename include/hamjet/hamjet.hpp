@@ -37,6 +37,7 @@
 #include "hamjet/integrators/newmark.hpp"
 #include "hamjet/integrators/stormer_verlet.hpp"
 #include "hamjet/integrators/symmetric_composition.hpp"
+#include "hamjet/maps/domain_splitting.hpp"
 #include "hamjet/maps/exactness.hpp"
 #include "hamjet/maps/flow_map.hpp"
 #include "hamjet/maps/generating_function.hpp"

@@ -1,0 +1,173 @@
+#include "hamjet/maps/domain_splitting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hamjet/error.hpp"
+
+namespace hamjet {
+namespace {
+
+/// The size of a monomial's largest value in a box.
+double largest_monomial(std::span<const std::uint8_t> exponents, std::span<const double> widths) {
+  double size = 1;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    for (int k = 0; k < exponents[i]; ++k) size *= widths[i];
+  }
+  return size;
+}
+
+struct Assessment {
+  double error = 0;
+  std::size_t direction = 0;
+};
+
+/// The estimate of one component from the sizes of its degrees.
+double extrapolated(const std::vector<double>& sizes) {
+  const std::size_t order = sizes.size() - 1;
+  // A vanishing degree, as of an even function, is no sign of the decay.
+  double count = 0, sum = 0, sum_of_squares = 0, logarithms = 0, products = 0;
+  for (std::size_t k = 1; k <= order; ++k) {
+    if (!(sizes[k] > 0)) continue;
+    const auto degree = static_cast<double>(k);
+    count += 1;
+    sum += degree;
+    sum_of_squares += degree * degree;
+    logarithms += std::log(sizes[k]);
+    products += degree * std::log(sizes[k]);
+  }
+  double fitted = 0;
+  const double spread = count * sum_of_squares - sum * sum;
+  if (spread > 0) {
+    const double slope = (count * products - sum * logarithms) / spread;
+    const double offset = (logarithms - slope * sum) / count;
+    fitted = std::exp(offset + slope * static_cast<double>(order + 1));
+  }
+  const double last = sizes[order];
+  const double before = sizes[order - 1];
+  return std::max(fitted, before > last ? last * last / before : last);
+}
+
+Assessment assess(const FlowMap<double>& map, std::span<const double> widths,
+                  std::size_t components) {
+  const SeriesSpace& space = *map.space();
+  const auto order = static_cast<std::size_t>(space.order());
+  Assessment result;
+  std::vector<double> by_variable(widths.size(), 0);
+  for (std::size_t c = 0; c < components; ++c) {
+    std::vector<double> sizes(order + 1, 0);
+    std::vector<double> own(widths.size(), 0);
+    for (std::size_t j = 1; j < space.size(); ++j) {
+      const auto exponents = space.exponents(j);
+      const double size = std::abs(map.jet()[c][j]) * largest_monomial(exponents, widths);
+      std::size_t degree = 0;
+      for (const auto e : exponents) degree += e;
+      sizes[degree] += size;
+      if (degree < order) continue;
+      for (std::size_t i = 0; i < widths.size(); ++i) own[i] += size * exponents[i];
+    }
+    const double error = extrapolated(sizes);
+    if (!std::isfinite(error)) {
+      throw Error(ErrorKind::numerical, "domains: the polynomials about a centre are not finite");
+    }
+    if (c > 0 && error <= result.error) continue;
+    result.error = error;
+    by_variable = own;
+  }
+  result.direction = static_cast<std::size_t>(
+      std::max_element(by_variable.begin(), by_variable.end()) - by_variable.begin());
+  return result;
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw Error(ErrorKind::usage, what);
+}
+
+}  // namespace
+
+SplitMap split_domains(const std::function<FlowMap<double>(std::span<const double>)>& map_about,
+                       std::span<const double> centre, std::span<const double> half_widths,
+                       const SplitSettings& settings) {
+  require(!centre.empty() && centre.size() == half_widths.size(),
+          "domains: a half width for each coordinate of the centre is needed");
+  require(std::all_of(half_widths.begin(), half_widths.end(),
+                      [](double w) { return w > 0 && std::isfinite(w); }),
+          "domains: half widths must be above 0");
+  require(settings.tolerance > 0, "domains: the tolerance must be above 0");
+  require(settings.most_domains > 0, "domains: at least one is needed");
+  SplitMap result;
+  std::vector<std::size_t> directions;
+  const auto add = [&](std::vector<double> middle, std::vector<double> widths) {
+    FlowMap<double> map = map_about(middle);
+    ++result.maps_made;
+    require(map.variables() == widths.size() && map.order() >= 2 &&
+                settings.components <= map.components(),
+            "domains: maps of order 2 or more, in as many variables as the box has, are needed");
+    const Assessment found =
+        assess(map, widths, settings.components == 0 ? map.components() : settings.components);
+    result.domains.push_back({std::move(middle), std::move(widths), std::move(map), found.error});
+    directions.push_back(found.direction);
+  };
+  add({centre.begin(), centre.end()}, {half_widths.begin(), half_widths.end()});
+  while (true) {
+    const auto worst =
+        std::max_element(result.domains.begin(), result.domains.end(),
+                         [](const auto& a, const auto& b) { return a.error < b.error; });
+    if (worst->error <= settings.tolerance) return result;
+    if (result.domains.size() == settings.most_domains) {
+      result.is_right = false;
+      return result;
+    }
+    const auto place = worst - result.domains.begin();
+    const std::size_t direction = directions[static_cast<std::size_t>(place)];
+    std::vector<double> widths = worst->half_widths;
+    widths[direction] /= 2;
+    std::vector<double> below = worst->centre;
+    std::vector<double> above = worst->centre;
+    below[direction] -= widths[direction];
+    above[direction] += widths[direction];
+    result.domains.erase(worst);
+    directions.erase(directions.begin() + place);
+    add(std::move(below), widths);
+    add(std::move(above), widths);
+  }
+}
+
+double SplitMap::error() const {
+  double largest = 0;
+  for (const SplitDomain& domain : domains) largest = std::max(largest, domain.error);
+  return largest;
+}
+
+const SplitDomain& SplitMap::domain_of(std::span<const double> point) const {
+  const SplitDomain* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const SplitDomain& domain : domains) {
+    if (point.size() != domain.centre.size()) {
+      throw Error(ErrorKind::usage, "domains: as many numbers as variables are needed");
+    }
+    // The largest coordinate in units of the half widths: at most 1 inside.
+    double distance = 0;
+    for (std::size_t i = 0; i < point.size(); ++i) {
+      distance = std::max(distance, std::abs(point[i] - domain.centre[i]) / domain.half_widths[i]);
+    }
+    if (nearest != nullptr && !(distance < least)) continue;
+    least = distance;
+    nearest = &domain;
+  }
+  if (nearest == nullptr) throw Error(ErrorKind::usage, "domains: there are none");
+  return *nearest;
+}
+
+std::vector<double> SplitMap::evaluate(std::span<const double> point) const {
+  const SplitDomain& domain = domain_of(point);
+  std::vector<double> deviation(point.begin(), point.end());
+  for (std::size_t i = 0; i < deviation.size(); ++i) deviation[i] -= domain.centre[i];
+  std::vector<double> result = domain.map.evaluate(deviation);
+  for (std::size_t c = 0; c < result.size(); ++c) result[c] += domain.map.jet()[c][0];
+  return result;
+}
+
+}  // namespace hamjet
