@@ -58,6 +58,10 @@ std::optional<std::string> encounter_message_lack(const Scene& scene,
     return fmt::format("its axes are GCRF or EME2000, got ephemeris.reference_frame {}",
                        settings.reference_frame);
   }
+  if (result.is_cut_by_burn) {
+    return "the burn at the start lies inside the passage, so that no probability is that of the "
+           "encounter";
+  }
   const UncertainApproach* const nearest = nearest_approach(result);
   if (nearest == nullptr) return "the means have no closest approach in the window";
   try {

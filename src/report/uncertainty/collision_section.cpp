@@ -178,6 +178,10 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
         "({:g} % from {:.5g} to {:.5g}).",
         whole->probability, result.watch.confidence * 100, whole->lower, whole->upper);
   }
+  if (result.is_cut_by_burn) {
+    section.verdict +=
+        " But the burn at the start lies inside the passage, of which this is a part.";
+  }
   section.warnings = result.warnings;
   section.table = collision_table_text(result);
   section.title = "Collision";

@@ -251,9 +251,16 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
         problem.spacecraft[craft].straight ? GaussianIn::elements : GaussianIn::positions;
     result.gaussian_in[craft] = gaussian_in_names[static_cast<std::size_t>(in)];
   }
+  std::optional<EncounterProblem> whole = with_whole_passages(problem);
   // Before a burn that ends at the start, the trajectory is a different one.
-  const std::optional<EncounterProblem> whole =
-      scene.uncertainty->burn && problem.from == 0 ? std::nullopt : with_whole_passages(problem);
+  if (whole && scene.uncertainty->burn && problem.from >= 0 && whole->from < 0) {
+    result.is_cut_by_burn = true;
+    result.warnings.push_back(
+        "the burn at the start lies inside a passage, before which the trajectory is a different "
+        "one: the probability is of what follows the burn, not of the encounter");
+    whole->from = 0;
+    if (problem.from == 0 && whole->to == problem.to) whole.reset();
+  }
   if (whole && !result.watch.has_window) {
     problem = *whole;
     result.is_widened = true;

@@ -68,6 +68,9 @@ struct CollisionResult {
   std::optional<CollisionProbability> of_whole_passage;
   double whole_from_s = 0;
   double whole_to_s = 0;
+  /// A burn at the start lies inside a passage, before which the trajectory is a different one: the
+  /// probabilities are of what follows, and none is that of the encounter.
+  bool is_cut_by_burn = false;
   /// Reasons why a number is not reliable, or does not cover the whole passage.
   std::vector<std::string> warnings;
   std::vector<UncertainApproach> approaches;
