@@ -72,10 +72,12 @@ void TaylorFlow::choose_units() {
     return largest * sqrt(sum);
   };
   std::array<Lanes, 2> times;
+  std::array<Lanes, 2> rates;
   for (std::size_t g = 0; g < times.size(); ++g) {
     const Lanes size = norm([&](std::size_t i) { return field_.input(g * n + i)[0]; });
     inverse_sizes_[g] = Lanes(1) / size;
-    times[g] = size / norm([&](std::size_t i) { return field_.output(g * n + i)[0]; });
+    rates[g] = norm([&](std::size_t i) { return field_.output(g * n + i)[0]; });
+    times[g] = size / rates[g];
   }
   // The time in which positions and momenta change by their own size: on a circle 1/(2 pi) of a
   // revolution. It is rounded to a power of two, which changes no digit.
@@ -91,7 +93,15 @@ void TaylorFlow::choose_units() {
     } else if (is_usable(of_momenta)) {
       exponent = std::ilogb(of_momenta);
     }
-    units_.set_lane(static_cast<int>(lane), std::ldexp(1.0, exponent));
+    const auto i = static_cast<int>(lane);
+    units_.set_lane(i, std::ldexp(1.0, exponent));
+    // What is 0, as momenta at rest are, is measured by its change in that time, and an equilibrium
+    // at the origin by nothing.
+    for (std::size_t g = 0; g < rates.size(); ++g) {
+      if (std::isfinite(inverse_sizes_[g].lane(i))) continue;
+      const double change = rates[g].lane(i) * units_.lane(i);
+      inverse_sizes_[g].set_lane(i, is_usable(change) ? 1 / change : 1);
+    }
   }
 }
 
@@ -145,10 +155,6 @@ double TaylorFlow::reach(std::size_t lane, double share) const {
 double TaylorFlow::reach_of_series(std::size_t lane) const {
   double reach = std::numeric_limits<double>::infinity();
   for (const bool is_of_momenta : {false, true}) {
-    // With a size of 0 there is no scale for the powers.
-    if (!std::isfinite(inverse_sizes_[is_of_momenta ? 1 : 0].lane(static_cast<int>(lane)))) {
-      return 0;
-    }
     for (const int k : {powers_[lane] - 1, powers_[lane]}) {
       const double last = std::sqrt(squares(k, is_of_momenta).lane(static_cast<int>(lane)));
       if (!std::isfinite(last)) return 0;

@@ -47,7 +47,8 @@ class MeasuredFlight {
     const Extended change =
         energy_->value(extended(arc.state(craft, 1)), flight_->start_time + arc.time_at(1)) -
         energy_->initial();
-    const double size = std::abs(static_cast<double>(change)) / scale_;
+    // At an equilibrium at the origin all terms are 0, and stay so.
+    const double size = change == 0 ? 0 : std::abs(static_cast<double>(change)) / scale_;
     if (!(size <= energy_change_)) energy_change_ = size;
   }
 
