@@ -5,7 +5,7 @@
 #include "cases.hpp"
 
 /// Without arguments all benchmarks; otherwise those named: products, evaluation, inversion,
-/// integrators, orders, savings, zonals, fields, arcs, many.
+/// integrators, orders, savings, zonals, own, fields, arcs, many.
 int main(int argc, char** argv) {
   using namespace hamjet::benchmarks;
   const auto wanted = [&](const std::string& name) {
@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   if (wanted("orders")) benchmark_orders();
   if (wanted("savings")) benchmark_savings();
   if (wanted("zonals")) benchmark_zonals();
+  if (wanted("own")) benchmark_own();
   if (wanted("fields")) {
     benchmark_fields();
     benchmark_earth_maps();

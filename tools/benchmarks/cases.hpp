@@ -47,6 +47,7 @@ void benchmark_inversion();
 void benchmark_orders();
 void benchmark_savings();
 void benchmark_zonals();
+void benchmark_own();
 void benchmark_fields();
 void benchmark_earth_maps();
 void benchmark_arcs();
