@@ -7,6 +7,7 @@
 
 #include "../integrators/concurrent_tasks.hpp"
 #include "../studies/checks/flight_checks.hpp"
+#include "../studies/exact_flow.hpp"
 #include "../studies/formation/deputy_flows.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
@@ -46,9 +47,17 @@ std::shared_ptr<const DeputyFlow> flow_of_third_degree(const Scene& scene,
 
 }  // namespace
 
-EvaluatedScene evaluated_scene(const Scene& scene) {
-  require_formation_problem(scene, true, "jet");
-  require_one_spacecraft(scene, "eval");
+void set_chief_end(EvaluatedScene& scene, std::vector<double> end) {
+  scene.chief.nominal_final = std::move(end);
+  for (std::size_t i = 0; i < 6; ++i) {
+    scene.companion[i] = scene.flow->chief_end()[i] - scene.chief.nominal_final[i];
+  }
+}
+
+EvaluatedScene evaluated_scene(const Scene& asked) {
+  require_formation_problem(asked, true, "jet");
+  require_states_alone(asked, "eval");
+  const Scene scene = with_deputy_coefficients(asked);
   EvaluatedScene result;
   io::StoredJet& chief = result.chief;
   const ComputedProblem problem = make_problem(scene);
@@ -84,12 +93,16 @@ EvaluatedScene evaluated_scene(const Scene& scene) {
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());
   if (result.stored_end.empty()) result.stored_end = chief.nominal_final;
+  if (!is_like_chief(asked)) {
+    set_chief_end(result, exact_flow(make_problem(asked).system, scene.nominal, scene.start_time,
+                                     scene.duration));
+  }
   chief.coordinates = result.coordinates;
   chief.components.resize(scene.nominal.size());
   std::iota(chief.components.begin(), chief.components.end(), std::size_t{0});
   chief.variables = chief.components;
   chief.ephemeris = scene.ephemeris;
-  result.checks = flight_checks(scene, flights_of(scene, scene.duration, false));
+  result.checks = flight_checks(asked, flights_of(asked, scene.duration, false));
   return result;
 }
 
@@ -257,7 +270,7 @@ void DeputyEvaluation::run(
     const Worker& worker = workers_[task];
     for (std::size_t k = 0; k < worker.predictions.size(); ++k) {
       const SixNumbers<double>& found = worker.predictions[k].deviation;
-      std::copy(found.begin(), found.end(), deviation.begin());
+      for (std::size_t i = 0; i < 6; ++i) deviation[i] = found[i] + scene_.companion[i];
       take(deviation, worker.estimates[k]);
     }
   }

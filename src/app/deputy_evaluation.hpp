@@ -33,15 +33,22 @@ struct EvaluatedScene {
   std::vector<double> stored_end;
   /// The rounding of a deputy's final position: a flight's floor and what a prediction rounds.
   double rounding_m = 0;
+  /// The final state of the orbit about which deputies are expanded, less the chief's: it starts
+  /// with the chief and has the coefficients of the scene's deputy.
+  SixNumbers<double> companion{};
   FlowError error;     ///< of the integration
   double seconds = 0;  ///< duration of the integration; 0 for a stored jet
   /// Of the chief's flight; none of a stored jet, which has its own.
   std::vector<SelfCheck> checks;
 };
 
-/// Integrates the polynomials of a scene about an orbit in all six variables. Throws Error(scene)
-/// for others, and as the integrator.
+/// Integrates the polynomials of a scene about an orbit in all six variables. Where the scene has a
+/// deputy that air or light moves otherwise than its chief, they are of spacecraft like it. Throws
+/// Error(scene) for others, and as the integrator.
 EvaluatedScene evaluated_scene(const Scene& scene);
+
+/// Sets the chief's final state, where deputies are expanded about another orbit.
+void set_chief_end(EvaluatedScene& scene, std::vector<double> end);
 
 /// A stored jet of an orbit in all six variables as such polynomials.
 EvaluatedScene evaluated_jet(const io::StoredJet& stored);

@@ -232,12 +232,16 @@ std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coeff
 }
 
 PolynomialsStudy restored_polynomials(const JetState& state, const py::object& coefficients,
-                                      double rounding_m, const std::vector<double>& error) {
+                                      double rounding_m, const std::vector<double>& error,
+                                      std::vector<double> chief_end) {
   const io::StoredJet stored = restored(state, coefficients);
   if (!is_orbit(stored.model) || stored.variables.size() != 6) refuse_state();
   cli::EvaluatedScene evaluated = cli::evaluated_jet(stored);
   evaluated.rounding_m = rounding_m;
   evaluated.error = cli::FlowError::of_numbers(error);
+  if (chief_end.size() != 6) refuse_state();
+  if (chief_end != evaluated.chief.nominal_final)
+    cli::set_chief_end(evaluated, std::move(chief_end));
   return PolynomialsStudy(std::move(evaluated));
 }
 
@@ -289,9 +293,10 @@ py::tuple reduced(const Jet& jet) {
 
 py::tuple reduced(const PolynomialsStudy& study) {
   const io::StoredJet stored = cli::stored_polynomials(study.evaluated());
-  return call_of("_restored_polynomials",
-                 py::make_tuple(state_of(stored), coefficients_of(stored),
-                                study.evaluated().rounding_m, study.evaluated().error.numbers()));
+  return call_of(
+      "_restored_polynomials",
+      py::make_tuple(state_of(stored), coefficients_of(stored), study.evaluated().rounding_m,
+                     study.evaluated().error.numbers(), study.evaluated().chief.nominal_final));
 }
 
 py::tuple reduced(const InvertedJet& function) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../studies/earth_system.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
@@ -30,8 +31,9 @@ struct GivenCovariance {
   Matrix<double> matrix;
   std::size_t line = 0;
   KnownState state;
-  bool has_state = true;   ///< an OEM may have no state at that epoch
-  std::string place = {};  ///< OBJECT1 or OBJECT2 of a CDM
+  bool has_state = true;                  ///< an OEM may have no state at that epoch
+  std::string place = {};                 ///< OBJECT1 or OBJECT2 of a CDM
+  ConjunctionSpacecraft spacecraft = {};  ///< of a CDM
 };
 
 /// The content of a file: the covariances of the wanted object, or of all objects that may be
@@ -80,6 +82,7 @@ GivenCovariance of_conjunction(const ConjunctionDataMessage& message, std::size_
   given.state.position_km = Eigen::Vector3d(object.position_km.data());
   given.state.velocity_km_s = Eigen::Vector3d(object.velocity_km_s.data());
   given.place = fmt::format("OBJECT{}", number + 1);
+  given.spacecraft = object.spacecraft;
   return given;
 }
 
@@ -140,10 +143,49 @@ class CovarianceFile {
       table_.fail(file_key, fmt::format("in line {}: {}", given.line, *fault));
     }
     state.covariance = Covariance(given.matrix, names);
+    add_coefficients(given, state);
     return state;
   }
 
  private:
+  /// The rows of C_D A / m and C_R A / m, of forces that the scene has.
+  void add_coefficients(const GivenCovariance& given, StateUncertainty& state) const {
+    const ConjunctionSpacecraft& craft = given.spacecraft;
+    const auto add = [&](std::string_view name, const auto& row, const std::optional<double>& told,
+                         const std::optional<double>& own, std::string_view keyword) {
+      if (!own || !row || row->back() == 0) return;
+      if (row->back() < 0) {
+        table_.fail(file_key, fmt::format("in line {}: no covariance, got a variance of {} of {}, "
+                                          "must not be below 0",
+                                          given.line, row->back(), name));
+      }
+      // Digits of a message, not another spacecraft.
+      constexpr double agreement = 0.01;
+      if (told && std::abs(*told - *own) > agreement * std::abs(*own)) {
+        table_.warn(file_key, fmt::format("{} of {} is not that of the scene, got {:.6g} beside "
+                                          "{:.6g} m^2/kg, should agree; the covariance is taken",
+                                          keyword, printable(given.place), *told, *own));
+      }
+      UncertainParameter parameter{
+          std::string(name), std::sqrt(row->back()), {row->begin(), row->begin() + 6}};
+      // Between both coefficients, where both are uncertain.
+      if (row->size() == 8 && !state.parameters.empty()) {
+        parameter.covariances.push_back((*row)[6]);
+      }
+      state.parameters.push_back(std::move(parameter));
+    };
+    add(drag_parameter, craft.drag_covariance, craft.drag_m2_kg, owner_.drag_m2_kg,
+        "CD_AREA_OVER_MASS");
+    add(radiation_parameter, craft.radiation_covariance, craft.radiation_m2_kg,
+        owner_.radiation_m2_kg, "CR_AREA_OVER_MASS");
+    if (state.parameters.empty()) return;
+    if (const auto fault =
+            Covariance::fault_of(state.joint_matrix(), component_names(state.frame))) {
+      table_.fail(file_key, fmt::format("in line {}: with the rows of C_D A / m and C_R A / m: {}",
+                                        given.line, *fault));
+    }
+  }
+
   /// The covariance at the chief's moment, which must be the only one that can be meant.
   GivenCovariance chosen() const {
     const std::string text = table_.content_beside_scene(file_key, largest_orbit_message_bytes);

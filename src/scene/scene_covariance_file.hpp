@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "../formats/orbit_messages/message_agreement.hpp"
@@ -14,6 +15,10 @@ struct CovarianceOwner {
   std::string_view
       object_of_cdm;  ///< object of a CDM that is taken where the table does not name one
   KnownState state;   ///< state at the chief's moment
+  /// C_D A / m and C_R A / m of the scene, whose covariances are wanted too; none without the
+  /// force.
+  std::optional<double> drag_m2_kg = {};
+  std::optional<double> radiation_m2_kg = {};
 };
 
 /// The covariance in the message that the key `file` of a table names. It must be at the chief's

@@ -128,6 +128,10 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   }
   const bool has_deputy = read_table("deputy", [&](const auto& table) {
     scene.deputy = read_deputy(table, scene, nominal, has_collision(root));
+    if (table.has("spacecraft")) return;
+    const SpacecraftSettings told = spacecraft_of_conjunction(root, scene.system);
+    if (!scene.deputy->drag_m2_kg) scene.deputy->drag_m2_kg = told.drag_m2_kg;
+    if (!scene.deputy->radiation_m2_kg) scene.deputy->radiation_m2_kg = told.radiation_m2_kg;
   });
   if (!has_deputy || root.is_misspelt("deputy")) return scene;
   read_table("uncertainty",

@@ -10,6 +10,7 @@
 #include "hamjet/error.hpp"
 #include "scene_covariance_file.hpp"
 #include "scene_relative_motion.hpp"
+#include "scene_uncertain_parameters.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -86,8 +87,8 @@ std::vector<JetCoordinates> read_compared_coordinates(const TableReader& uncerta
 
 const TableDescription& deputy_uncertainty_table() {
   static const TableDescription table = {
-      joined<SceneKey>(
-          {covariance_frame_keys(absent::other("of `[uncertainty]`")), state_uncertainty_keys()}),
+      joined<SceneKey>({covariance_frame_keys(absent::other("of `[uncertainty]`")),
+                        state_uncertainty_keys(), uncertain_parameter_keys()}),
       "How well the deputy's state at the start is known, independently of the chief's; RTN is of "
       "its own orbit."};
   return table;
@@ -216,13 +217,25 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
     }
     const CovarianceOwner owner = {deputy != nullptr ? "deputy" : "chief",
                                    deputy != nullptr ? "OBJECT2" : "OBJECT1",
-                                   state_of_owner(scene, nominal, deputy)};
-    return read_covariance_file(table, nominal, owner);
+                                   state_of_owner(scene, nominal, deputy),
+                                   coefficient_of_owner(scene, deputy != nullptr, true),
+                                   coefficient_of_owner(scene, deputy != nullptr, false)};
+    StateUncertainty of_file = read_covariance_file(table, nominal, owner);
+    const bool is_of_paths = fallback.has("collision") || fallback.has("safety");
+    if (is_of_paths && !of_file.parameters.empty()) {
+      table.warn("file",
+                 "rows of C_D A / m and C_R A / m are left out beside [uncertainty.collision] and "
+                 "[uncertainty.safety], which are of states alone");
+      of_file.parameters.clear();
+    }
+    return of_file;
   }
   if (table.has("object")) {
     table.fail("object", "of no file, got an object without the key file, must be left out");
   }
   const bool has_deviations = table.has("position_m") || table.has("velocity_m_s");
+  // A state that is known exactly may be that of a spacecraft whose drag is not.
+  if (has_uncertain_parameters(table) && !has_covariance(table)) return state;
   if (table.has("covariance_m_m_s")) {
     if (has_deviations) {
       table.fail(table.has("position_m") ? "position_m" : "velocity_m_s",
@@ -281,6 +294,7 @@ const TableDescription& uncertainty_table() {
       joined<SceneKey>(
           {covariance_frame_keys(absent::value("RTN")),
            state_uncertainty_keys(),
+           uncertain_parameter_keys(),
            {{"gaussian_in", form::choice({gaussian_in_names.begin(), gaussian_in_names.end()}),
              absent::value(gaussian_in_names[0]),
              "the coordinates in which the states at the start are Gaussian: positions and "
@@ -329,12 +343,15 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
     }
     const TableReader owner = root.table("deputy");
     settings.deputy = read_state_uncertainty(deputy, uncertainty, scene, nominal, &owner);
+    read_uncertain_parameters(deputy, scene, *settings.deputy, nullptr);
   }
   if (uncertainty.has("burn")) {
     settings.burn = read_burn(uncertainty.table("burn"), uncertainty, nominal);
   }
-  if (has_covariance(uncertainty) || (!settings.deputy && !settings.burn)) {
+  const bool has_parameters = has_uncertain_parameters(uncertainty);
+  if (has_covariance(uncertainty) || has_parameters || (!settings.deputy && !settings.burn)) {
     settings.chief = read_state_uncertainty(uncertainty, uncertainty, scene, nominal, nullptr);
+    read_uncertain_parameters(uncertainty, scene, *settings.chief, &settings.common);
   }
   if (uncertainty.has("collision")) {
     settings.collision =

@@ -187,6 +187,11 @@ const std::vector<EarthParameter>& earth_parameters() {
   return parameters;
 }
 
+bool is_of_all_spacecraft(std::string_view name) {
+  return name != drag_parameter && name != radiation_parameter &&
+         std::find(thrust_names.begin(), thrust_names.end(), name) == thrust_names.end();
+}
+
 void add_parameter(SystemSettings& settings, std::string_view name) {
   if (settings.own_names.empty()) {
     const std::vector<std::string_view> names = variable_names(settings);

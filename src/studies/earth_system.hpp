@@ -31,6 +31,9 @@ struct EarthParameter {
 };
 const std::vector<EarthParameter>& earth_parameters();
 
+/// Whether a parameter is the same of all spacecraft, as those of the air and of the field are.
+bool is_of_all_spacecraft(std::string_view name);
+
 /// C_D A / m and C_R A / m, in m^2/kg.
 inline constexpr std::string_view drag_parameter = "drag_m2_kg";
 inline constexpr std::string_view radiation_parameter = "radiation_m2_kg";

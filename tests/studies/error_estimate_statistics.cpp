@@ -13,16 +13,17 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "studies/checks/error_promise.hpp"
+#include "studies/estimated_forces.hpp"
 #include "studies/estimated_jets.hpp"
 #include "studies/estimated_scenes.hpp"
 
 // How often an estimate is below the true error, and how often far above it, over random inputs:
-//   error_estimate_statistics [scenes|jets|floors|deputies] [count] [first seed]
-// `scenes` are of all models and methods, `jets` of Gauss about orbits, `deputies` in all
-// coordinates and frames; `floors` compares estimates of jets that rounding limits with what the
-// check error-estimate takes rounding for. Exit code 1 if an estimate is below a tenth of the error
-// in more than 1 % of them, or below a thirtieth in any (of scenes, whose coarse steps resolve
-// nothing, below a hundredth).
+//   error_estimate_statistics [scenes|forces|jets|floors|deputies] [count] [first seed]
+// `scenes` are of all models and methods, `forces` of Gauss in air and light, `jets` of Gauss about
+// orbits, `deputies` in all coordinates and frames; `floors` compares estimates of jets that
+// rounding limits with what the check error-estimate takes rounding for. Exit code 1 if an estimate
+// is below a tenth of the error in more than 1 % of them, or below a thirtieth in any (of scenes,
+// whose coarse steps resolve nothing, below a hundredth).
 
 namespace hamjet::test {
 namespace {
@@ -76,14 +77,15 @@ class Ratios {
   bool shows_high_ = std::getenv("HAMJET_SHOW_HIGH") != nullptr;
 };
 
-bool report_scenes(int count, std::uint64_t first) {
+bool report_scenes(int count, std::uint64_t first, Scene (*draw)(std::uint64_t)) {
   Ratios ratios;
   int judged = 0, failed = 0, without = 0;
   double run_seconds = 0, estimate_seconds = 0;
   for (int k = 0; k < count; ++k) {
-    const Scene scene = estimated_scene(first + static_cast<std::uint64_t>(k));
     std::fflush(stdout);
+    Scene scene;
     try {
+      scene = draw(first + static_cast<std::uint64_t>(k));
       const PropagationResult result = propagate(scene);
       const RunResult& run = result.runs.front();
       if (!run.failure.empty() || !result.reference) {
@@ -104,7 +106,7 @@ bool report_scenes(int count, std::uint64_t first) {
                    fmt::format("{}, degree {}", description(scene), one.degree));
       }
     } catch (const Error& error) {
-      fmt::print("{}: {}\n", description(scene), error.what());
+      fmt::print("seed {}: {}\n", first + static_cast<std::uint64_t>(k), error.what());
       ++failed;
     }
   }
@@ -184,10 +186,11 @@ int main(int argc, char** argv) {
   const std::string_view what = argc > 1 ? argv[1] : "scenes";
   const int count = argc > 2 ? std::atoi(argv[2]) : 300;
   const auto first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1ULL;
-  if (what == "scenes") return report_scenes(count, first) ? 0 : 1;
+  if (what == "scenes") return report_scenes(count, first, estimated_scene) ? 0 : 1;
+  if (what == "forces") return report_scenes(count, first, estimated_in_forces) ? 0 : 1;
   if (what == "jets") return report("jets", count, first, add_jet) ? 0 : 1;
   if (what == "floors") return report("floors", count, first, add_floor) ? 0 : 1;
   if (what == "deputies") return report("deputies", count, first, add_deputy) ? 0 : 1;
-  fmt::print(stderr, "scenes, jets, floors or deputies\n");
+  fmt::print(stderr, "scenes, forces, jets, floors or deputies\n");
   return 2;
 }

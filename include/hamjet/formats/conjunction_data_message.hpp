@@ -16,6 +16,21 @@
 
 namespace hamjet::io {
 
+/// What a message says of how air and light act on an object.
+struct ConjunctionSpacecraft {
+  std::optional<double> visible_area_m2;    ///< AREA_PC
+  std::optional<double> drag_area_m2;       ///< AREA_DRG
+  std::optional<double> radiation_area_m2;  ///< AREA_SRP
+  std::optional<double> mass_kg;            ///< MASS
+  std::optional<double> drag_m2_kg;         ///< CD_AREA_OVER_MASS, C_D A / m
+  std::optional<double> radiation_m2_kg;    ///< CR_AREA_OVER_MASS, C_R A / m
+  /// Covariances of C_D A / m (CDRG_*) with R, T, N and their velocities, then its variance:
+  /// m^3/kg, m^3/(kg s), m^4/kg^2.
+  std::optional<std::array<double, 7>> drag_covariance;
+  /// Those of C_R A / m (CSRP_*), before the variance that with C_D A / m.
+  std::optional<std::array<double, 8>> radiation_covariance;
+};
+
 /// One of the two objects: its state at the time of closest approach, and the covariance of this
 /// state.
 struct ConjunctionObject {
@@ -34,8 +49,9 @@ struct ConjunctionObject {
   /// Covariance of position and velocity along the object's own R, T, N, with inertial velocities;
   /// both halves of the matrix, in m^2, m^2/s, m^2/s^2.
   std::array<std::array<double, 6>, 6> covariance = {};
-  std::vector<std::string> comments;  ///< comments before the state; written, not read
-  std::size_t covariance_line = 0;    ///< line of CR_R, if the message was read
+  ConjunctionSpacecraft spacecraft = {};  ///< as far as the message tells it
+  std::vector<std::string> comments;      ///< comments before the state; written, not read
+  std::size_t covariance_line = 0;        ///< line of CR_R, if the message was read
 };
 
 /// A message about two objects that come near each other.
@@ -57,10 +73,9 @@ struct ConjunctionDataMessage {
   std::vector<std::string> doubts = {};
 };
 
-/// Reads a CDM. Other contents of the standard (orbit determination, parameters of drag and
-/// radiation with their rows of the covariance, operators) are checked by their keywords and left
-/// out; an empty optional value counts as absent. Throws Error(input_output), with one line as
-/// read_oem, for a text that is not such a message.
+/// Reads a CDM. Other contents of the standard (orbit determination, thrust, operators) are checked
+/// by their keywords and left out; an empty optional value counts as absent. Throws
+/// Error(input_output), with one line as read_oem, for a text that is not such a message.
 ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text);
 
 /// Writes a CDM as text, with numbers of 16 digits. Texts must be printable ASCII.

@@ -68,6 +68,10 @@ class Cumulants {
   /// the result then has the moments of the sample itself, divided by the count.
   static Cumulants of_points(const Matrix<double>& points, const Vector<double>& weights);
 
+  /// The cumulants of a mixture: with the probability `weights[i]`, which sum up to 1, the vector
+  /// is distributed as `parts[i]`. All parts have one size.
+  static Cumulants of_mixture(std::span<const Cumulants> parts, const Vector<double>& weights);
+
   /// The cumulants of A y.
   Cumulants mapped(const Matrix<double>& map) const;
 

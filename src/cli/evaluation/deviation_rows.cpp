@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "../../app/refusal.hpp"
 #include "../../app/stored_chief.hpp"
 #include "../../report/study_description.hpp"
 #include "../../store/text_file.hpp"
+#include "../../studies/formation/formation_problem.hpp"
 #include "../../text/scene_message.hpp"
 #include "../../text/scene_refusal.hpp"
 #include "eval_source.hpp"
@@ -17,9 +19,15 @@
 namespace hamjet::cli {
 namespace {
 
-/// The row of the scene's deputy.
-std::vector<double> deputy_row(const EvalOptions& options, const io::StoredJet& stored,
-                               const EvalCoordinates& coordinates) {
+/// The scene's deputy: its row, and the deviations of all of the jet's variables behind positions
+/// and momenta.
+struct DeputyRow {
+  std::vector<double> row;
+  std::vector<double> parameters;
+};
+
+DeputyRow deputy_row(const EvalOptions& options, const io::StoredJet& stored,
+                     const EvalCoordinates& coordinates) {
   const RunOptions named = scene_named(options, *options.deputy);
   const std::string& file = *named.scene_file;
   Scene scene;
@@ -39,7 +47,38 @@ std::vector<double> deputy_row(const EvalOptions& options, const io::StoredJet& 
   }
   const ChiefFrame frame(scene.nominal, {scene.units.length_km * 1000, scene.units.time_s},
                          scene.deputy->frame);
-  return coordinates.initial_row(frame.deviation(scene.deputy->start));
+  std::vector<double> deviation = frame.deviation(scene.deputy->start);
+  DeputyRow deputy;
+  if (is_of_scene(options)) {
+    // The polynomials are of spacecraft like the deputy of their own scene.
+    if (*options.deputy != options.directory && !is_like_chief(scene)) {
+      io::refuse_scene(file, "deputy",
+                       fmt::format("differs from its chief in {}, and the polynomials are of "
+                                   "another scene, must be like its chief, or evaluated with its "
+                                   "own scene",
+                                   differing_parameters(scene)[0]));
+    }
+    return {coordinates.initial_row(deviation), {}};
+  }
+  const std::vector<std::string_view> names = stored.variable_names();
+  const auto is_variable = [&](std::string_view name) {
+    return std::any_of(stored.variables.begin(), stored.variables.end(),
+                       [&](std::size_t v) { return names[v] == name; });
+  };
+  for (const std::string& name : differing_parameters(scene)) {
+    if (is_variable(name)) continue;
+    io::refuse_scene(file, "deputy",
+                     fmt::format("differs from its chief in {}, which the jet {} has not as a "
+                                 "variable, must be like its chief, or beside a jet with {} in "
+                                 "jet.variables, or evaluated with the scene in place of results",
+                                 name, io::printable(stored.label), name));
+  }
+  for (std::size_t v = deviation.size(); v < names.size(); ++v) {
+    deviation.push_back(parameter_difference(scene, names[v]));
+    if (is_variable(names[v])) deputy.parameters.push_back(deviation.back());
+  }
+  deputy.row = coordinates.initial_row(deviation);
+  return deputy;
 }
 
 /// The row that the command line gives.
@@ -75,9 +114,10 @@ DeviationRows::DeviationRows(const EvalOptions& options, const io::StoredJet& st
     rewind();
     return;
   }
-  std::vector<double> row = options.deputy ? deputy_row(options, stored, coordinates)
-                                           : given_row(*options.deviation, coordinates);
-  row_ = {row.size(), std::move(row)};
+  DeputyRow given = options.deputy ? deputy_row(options, stored, coordinates)
+                                   : DeputyRow{given_row(*options.deviation, coordinates), {}};
+  row_ = {given.row.size(), std::move(given.row)};
+  parameters_ = std::move(given.parameters);
 }
 
 void DeviationRows::keep() {
@@ -103,7 +143,10 @@ io::NumberTable DeviationRows::read(std::size_t most_rows) {
 std::vector<double> DeviationRows::variables(const EvalCoordinates& coordinates,
                                              const io::NumberTable& part, std::size_t row) const {
   try {
-    return coordinates.variables(part.row(row));
+    std::vector<double> variables = coordinates.variables(part.row(row));
+    // They come last; frames do not tell them, canonical rows have them already.
+    std::copy(parameters_.rbegin(), parameters_.rend(), variables.rbegin());
+    return variables;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::usage) throw;
     if (options_.deviation) refuse(fmt::format("--deviation: {}", error.what()));

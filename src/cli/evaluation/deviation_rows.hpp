@@ -40,6 +40,7 @@ class DeviationRows {
   std::optional<io::InputStream> input_;
   std::optional<io::NumberTableReader> reader_;  ///< of the input
   io::NumberTable row_;                          ///< the only one, without an input
+  std::vector<double> parameters_;               ///< of the deputy, behind positions and momenta
   bool is_at_end_ = false;
 };
 

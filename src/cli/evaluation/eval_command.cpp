@@ -103,6 +103,12 @@ std::vector<SelfCheck> checks_of(const std::vector<EvalSource>& jets) {
   return scene ? scene->checks : std::vector<SelfCheck>{};
 }
 
+/// Whether the polynomials are of spacecraft that are not like the chief.
+bool has_companion(const EvalSource& jet) {
+  const auto& scene = jet.scene;
+  return scene && scene->companion != SixNumbers<double>{};
+}
+
 std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
                     const EvaluationWork& work, const EvalOutput& output) {
   const io::StoredJet& stored = jets.front().stored;
@@ -174,6 +180,9 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
     print_note(fmt::format(
         "{} coordinates are of the end alone; before it the jets are in positions and momenta",
         name_of(jet.coordinates())));
+  }
+  if (has_companion(jet)) {
+    print_note("all rows are of spacecraft like the scene's deputy in drag and radiation");
   }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(jets)));
@@ -248,6 +257,11 @@ int eval(const EvalOptions& given) {
                        jets.front().order()));
   }
   const EvalCoordinates coordinates(stored, options.frames, jets.front().told());
+  if (has_companion(jets.front()) && options.deputy && *options.deputy != options.directory) {
+    refuse(
+        "--deputy: the polynomials are of spacecraft like the deputy of their own scene, which "
+        "air or light moves otherwise than its chief, got another scene; must be its own");
+  }
   std::optional<OutputFile> file;
   if (options.output) file.emplace(*options.output);
   DeviationRows deviations(options, stored, coordinates);

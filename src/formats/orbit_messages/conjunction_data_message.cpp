@@ -74,12 +74,6 @@ const Keywords other_object_keywords = {"OBJECT",
                                         "TRACKS_USED",
                                         "RESIDUALS_ACCEPTED",
                                         "WEIGHTED_RMS",
-                                        "AREA_PC",
-                                        "AREA_DRG",
-                                        "AREA_SRP",
-                                        "MASS",
-                                        "CD_AREA_OVER_MASS",
-                                        "CR_AREA_OVER_MASS",
                                         "THRUST_ACCELERATION",
                                         "SEDR"};
 
@@ -106,6 +100,37 @@ const std::vector<CovarianceKeyword>& covariance_keywords_of_cdm() {
   return keywords;
 }
 
+/// A number of an object by which air and light act on it (table 3-4).
+struct SurfaceKeyword {
+  std::string_view keyword;
+  std::string_view unit;
+  std::optional<double> ConjunctionSpacecraft::*member;
+};
+constexpr std::array<SurfaceKeyword, 6> surface_keywords = {
+    {{"AREA_PC", "m**2", &ConjunctionSpacecraft::visible_area_m2},
+     {"AREA_DRG", "m**2", &ConjunctionSpacecraft::drag_area_m2},
+     {"AREA_SRP", "m**2", &ConjunctionSpacecraft::radiation_area_m2},
+     {"MASS", "kg", &ConjunctionSpacecraft::mass_kg},
+     {"CD_AREA_OVER_MASS", "m**2/kg", &ConjunctionSpacecraft::drag_m2_kg},
+     {"CR_AREA_OVER_MASS", "m**2/kg", &ConjunctionSpacecraft::radiation_m2_kg}}};
+
+/// The rows of the covariance that belong to C_D A / m and C_R A / m.
+constexpr std::array<Quantity, 7> drag_row = {{{"CDRG_R", "m**3/kg"},
+                                               {"CDRG_T", "m**3/kg"},
+                                               {"CDRG_N", "m**3/kg"},
+                                               {"CDRG_RDOT", "m**3/(kg*s)"},
+                                               {"CDRG_TDOT", "m**3/(kg*s)"},
+                                               {"CDRG_NDOT", "m**3/(kg*s)"},
+                                               {"CDRG_DRG", "m**4/kg**2"}}};
+constexpr std::array<Quantity, 8> radiation_row = {{{"CSRP_R", "m**3/kg"},
+                                                    {"CSRP_T", "m**3/kg"},
+                                                    {"CSRP_N", "m**3/kg"},
+                                                    {"CSRP_RDOT", "m**3/(kg*s)"},
+                                                    {"CSRP_TDOT", "m**3/(kg*s)"},
+                                                    {"CSRP_NDOT", "m**3/(kg*s)"},
+                                                    {"CSRP_DRG", "m**4/kg**2"},
+                                                    {"CSRP_SRP", "m**4/kg**2"}}};
+
 const Keywords& object_keywords() {
   static const Keywords keywords = [] {
     Keywords result = other_object_keywords;
@@ -113,11 +138,11 @@ const Keywords& object_keywords() {
     for (const CovarianceKeyword& keyword : covariance_keywords_of_cdm()) {
       result.push_back(keyword.keyword);
     }
-    for (const std::string_view more :
-         {"CDRG_R",    "CDRG_T",    "CDRG_N",    "CDRG_RDOT", "CDRG_TDOT", "CDRG_NDOT",
-          "CDRG_DRG",  "CSRP_R",    "CSRP_T",    "CSRP_N",    "CSRP_RDOT", "CSRP_TDOT",
-          "CSRP_NDOT", "CSRP_DRG",  "CSRP_SRP",  "CTHR_R",    "CTHR_T",    "CTHR_N",
-          "CTHR_RDOT", "CTHR_TDOT", "CTHR_NDOT", "CTHR_DRG",  "CTHR_SRP",  "CTHR_THR"}) {
+    for (const SurfaceKeyword& keyword : surface_keywords) result.push_back(keyword.keyword);
+    for (const Quantity& quantity : drag_row) result.push_back(quantity.keyword);
+    for (const Quantity& quantity : radiation_row) result.push_back(quantity.keyword);
+    for (const std::string_view more : {"CTHR_R", "CTHR_T", "CTHR_N", "CTHR_RDOT", "CTHR_TDOT",
+                                        "CTHR_NDOT", "CTHR_DRG", "CTHR_SRP", "CTHR_THR"}) {
       result.push_back(more);
     }
     return result;
@@ -125,7 +150,21 @@ const Keywords& object_keywords() {
   return keywords;
 }
 
-ConjunctionObject object_of(const MessageBlock& block) {
+/// A row of the covariance; no value where it is not there as a whole.
+template <std::size_t count>
+std::optional<std::array<double, count>> row_of(const MessageBlock& block,
+                                                const std::array<Quantity, count>& row,
+                                                std::vector<std::string>& doubts) {
+  std::array<double, count> numbers{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto number = block.unused_number(row[i].keyword, row[i].unit, doubts);
+    if (!number) return std::nullopt;
+    numbers[i] = *number;
+  }
+  return numbers;
+}
+
+ConjunctionObject object_of(const MessageBlock& block, std::vector<std::string>& doubts) {
   ConjunctionObject object;
   object.object_designator = block.text("OBJECT_DESIGNATOR");
   object.catalog_name = block.text("CATALOG_NAME");
@@ -155,6 +194,11 @@ ConjunctionObject object_of(const MessageBlock& block) {
     }
   }
   object.covariance_line = block.line_of("CR_R");
+  for (const SurfaceKeyword& one : surface_keywords) {
+    object.spacecraft.*one.member = block.unused_number(one.keyword, one.unit, doubts);
+  }
+  object.spacecraft.drag_covariance = row_of(block, drag_row, doubts);
+  object.spacecraft.radiation_covariance = row_of(block, radiation_row, doubts);
   return object;
 }
 
@@ -215,7 +259,7 @@ ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text) 
       has_line = lines.next(line);
     } while (has_line && line.keyword != "OBJECT");
     block.end_at(lines.number());
-    message.objects[k] = object_of(block);
+    message.objects[k] = object_of(block, message.doubts);
   }
   if (has_line) {
     lines.fail(line.number, "OBJECT",
@@ -282,6 +326,11 @@ std::string cdm_text(const ConjunctionDataMessage& message) {
     add("ORBIT_CENTER", object.orbit_center);
     add("REF_FRAME", object.reference_frame);
     add_comments(object.comments);
+    for (const SurfaceKeyword& one : surface_keywords) {
+      if (const auto number = object.spacecraft.*one.member) {
+        add_number(one.keyword, *number, one.unit);
+      }
+    }
     const std::vector<Quantity>& state = state_quantities();
     for (std::size_t i = 0; i < 6; ++i) {
       add_number(state[i].keyword, i < 3 ? object.position_km[i] : object.velocity_km_s[i - 3],
@@ -294,6 +343,13 @@ std::string cdm_text(const ConjunctionDataMessage& message) {
         add_number(of.keyword, object.covariance[i][j], of.unit);
       }
     }
+    const auto add_row = [&](const auto& row, const auto& numbers) {
+      for (std::size_t i = 0; numbers && i < row.size(); ++i) {
+        add_number(row[i].keyword, (*numbers)[i], row[i].unit);
+      }
+    };
+    add_row(drag_row, object.spacecraft.drag_covariance);
+    add_row(radiation_row, object.spacecraft.radiation_covariance);
   }
   return text;
 }

@@ -79,6 +79,20 @@ Json uncertainty_json(const UncertaintyResult& result) {
                              {"time_s", at.time * result.scene.units.time_s},
                              {"states", states}});
   }
+  if (!result.parameter_effects.empty()) {
+    Json effects = Json::array();
+    for (const ParameterEffect& effect : result.parameter_effects) {
+      Json along = Json::object();
+      for (const ParameterEffect::Along& one : effect.along) {
+        along[one.state] = std::vector<double>(one.deviations.begin(), one.deviations.end());
+      }
+      effects.push_back({{"parameter", effect.parameter},
+                         {"spacecraft", effect.spacecraft},
+                         {"deviation", effect.deviation},
+                         {"linear_deviations_m_m_s", along}});
+    }
+    json["uncertain_parameters"] = effects;
+  }
   json["seconds"] = {{"propagation", result.propagation_seconds},
                      {"moments", result.moments_seconds},
                      {"flights", result.flight_seconds}};

@@ -86,6 +86,24 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
   return rows;
 }
 
+/// What each uncertain parameter alone does to a state at the last time, linearly.
+std::vector<std::vector<std::string>> parameter_rows(const UncertaintyResult& result,
+                                                     const UncertainState& state) {
+  std::vector<std::vector<std::string>> rows = {{"parameter", "of", "its s"}};
+  for (const StateComponent& component : state_components(result)) {
+    rows[0].push_back(fmt::format("s of {} ({})", component.name, component.unit));
+  }
+  for (const ParameterEffect& effect : result.parameter_effects) {
+    for (const ParameterEffect::Along& along : effect.along) {
+      if (along.state != state.name) continue;
+      rows.push_back(
+          {effect.parameter, effect.spacecraft, fmt::format("{:.4g}", effect.deviation)});
+      for (const double s : along.deviations) rows.back().push_back(fmt::format("{:.4g}", s));
+    }
+  }
+  return rows;
+}
+
 /// How far from Gaussian a state is at the last time in the coordinates that are compared.
 std::vector<std::vector<std::string>> coordinates_rows(const UncertaintyResult& result,
                                                        const UncertainState& state) {
@@ -138,6 +156,10 @@ std::string terminal_table(const UncertaintyResult& result,
   text += fmt::format(
       "s: standard deviation; skewness and excess kurtosis are 0 of a Gaussian;\nlinear wrong by: "
       "the largest error of a probability by the linear covariance\n");
+  if (!result.parameter_effects.empty()) {
+    text += "\nwhat each uncertain parameter does alone, linearly:\n" +
+            aligned_table(parameter_rows(result, state));
+  }
   if (!result.in_coordinates.empty()) {
     text += "\n" + aligned_table(coordinates_rows(result, state));
   }
@@ -198,6 +220,10 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
         table_html("Moments of each component", moments_rows(result, state)),
         table_html("How far it is from Gaussian, and the linear theory from it",
                    gaussian_rows(result, last, state)) +
+            (result.parameter_effects.empty()
+                 ? ""
+                 : table_html("What each uncertain parameter does alone, linearly",
+                              parameter_rows(result, state))) +
             (result.in_coordinates.empty()
                  ? ""
                  : table_html("In other coordinates, the nearest to Gaussian first",

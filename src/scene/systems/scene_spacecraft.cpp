@@ -8,6 +8,7 @@
 #include "../../text/scene_message.hpp"
 #include "../scene_nominal_file.hpp"
 #include "../scene_sections.hpp"
+#include "hamjet/formats/conjunction_data_message.hpp"
 #include "scene_atmosphere.hpp"
 
 namespace hamjet::io {
@@ -151,6 +152,58 @@ SpacecraftSettings coefficients_of_message(const TableReader& table, const Surfa
   return settings;
 }
 
+/// A coefficient of an object of a CDM: itself, or what its area and mass make with the usual
+/// factor.
+std::optional<double> coefficient_of_object(const TableReader& table, const CoefficientKeys& keys,
+                                            const std::optional<double>& itself,
+                                            const std::optional<double>& area,
+                                            const std::optional<double>& mass) {
+  if (!itself && !(area && mass)) return std::nullopt;
+  const double value = itself ? *itself : keys.usual_factor * *area / *mass;
+  if (!(value >= 0) || (!itself && !(*mass > 0))) {
+    table.fail("file", fmt::format("no {}, got a message with {:.6g} m^2/kg, must be at least 0, "
+                                   "of a positive mass, or beside [spacecraft]",
+                                   keys.symbol, value));
+  }
+  warn_of_unit(table, "file", keys, value);
+  return value;
+}
+
+/// What the CDM of a table of uncertainty tells of the forces that there are; `usual` is the object
+/// that is meant where the table names none.
+SpacecraftSettings coefficients_of_conjunction(const TableReader& table, std::string_view usual,
+                                               const SurfaceForces& forces) {
+  SpacecraftSettings settings;
+  if (!table.has("file")) return settings;
+  const std::string text = table.content_beside_scene("file", largest_orbit_message_bytes);
+  if (text.find("CCSDS_CDM_VERS") == text.npos) return settings;
+  const std::string object = table.has("object") ? table.text("object") : std::string(usual);
+  const std::string name = printable(table.path_beside_scene("file").string(), std::string::npos);
+  const ConjunctionDataMessage message = read_cdm(name, text);
+  for (std::size_t k = 0; k < message.objects.size(); ++k) {
+    const ConjunctionObject& one = message.objects[k];
+    if (object != fmt::format("OBJECT{}", k + 1) && object != one.object_name &&
+        object != one.international_designator && object != one.object_designator) {
+      continue;
+    }
+    const ConjunctionSpacecraft& craft = one.spacecraft;
+    const auto area_or_whole = [&](const std::optional<double>& own) {
+      return own ? own : craft.visible_area_m2;
+    };
+    if (forces.has_drag) {
+      settings.drag_m2_kg = coefficient_of_object(table, drag_keys, craft.drag_m2_kg,
+                                                  area_or_whole(craft.drag_area_m2), craft.mass_kg);
+    }
+    if (forces.has_radiation) {
+      settings.radiation_m2_kg =
+          coefficient_of_object(table, radiation_keys, craft.radiation_m2_kg,
+                                area_or_whole(craft.radiation_area_m2), craft.mass_kg);
+    }
+    break;
+  }
+  return settings;
+}
+
 /// Whether a table says anything about a coefficient.
 bool tells(const TableReader& table, const CoefficientKeys& keys) {
   for (const std::string_view key : {keys.itself, keys.factor, keys.own_area,
@@ -273,13 +326,18 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
   SpacecraftSettings chief;
   if (!root.has("spacecraft")) {
     chief = coefficients_of_message(root.table("nominal"), forces);
+    if (forces.any() && root.has("uncertainty")) {
+      const auto other = coefficients_of_conjunction(root.table("uncertainty"), "OBJECT1", forces);
+      if (!chief.drag_m2_kg) chief.drag_m2_kg = other.drag_m2_kg;
+      if (!chief.radiation_m2_kg) chief.radiation_m2_kg = other.radiation_m2_kg;
+    }
     const bool lacks_drag = forces.has_drag && !chief.drag_m2_kg;
     if (lacks_drag || (forces.has_radiation && !chief.radiation_m2_kg)) {
       const std::string_view key = lacks_drag ? "atmosphere" : "radiation";
       system.fail(
           key, fmt::format("without a spacecraft, got {}, must stand beside a table "
                            "[spacecraft] with mass_kg and area_m2, or {}, or a message "
-                           "nominal.opm_file with MASS and {}",
+                           "nominal.opm_file with MASS and {}, or a CDM in uncertainty.file",
                            system.found(key), lacks_drag ? drag_keys.itself : radiation_keys.itself,
                            lacks_drag ? "DRAG_AREA" : "SOLAR_RAD_AREA"));
     }
@@ -303,6 +361,15 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
 
 bool uses_message_of_spacecraft(const TableReader& root, const SystemSettings& system) {
   return SurfaceForces(system).any() && !root.has("spacecraft");
+}
+
+SpacecraftSettings spacecraft_of_conjunction(const TableReader& root,
+                                             const SystemSettings& system) {
+  const SurfaceForces forces(system);
+  if (!forces.any() || root.has("spacecraft") || !root.has("uncertainty")) return {};
+  const TableReader uncertainty = root.table("uncertainty");
+  if (!uncertainty.has("deputy")) return {};
+  return coefficients_of_conjunction(uncertainty.table("deputy"), "OBJECT2", forces);
 }
 
 SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system) {

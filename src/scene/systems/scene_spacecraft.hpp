@@ -22,12 +22,15 @@ struct SpacecraftSettings {
 std::vector<SceneKey> surface_force_keys();
 
 /// Reads air and light of the model `earth`, the chief's coefficients (of [spacecraft], or else of
-/// the nominal's OPM), and the names of the
+/// the nominal's OPM, or of the CDM of [uncertainty]), and the names of the
 /// parameters in which `[jet]` expands. Refuses a table [spacecraft] of other models.
 void read_surface_forces(const TableReader& root, SystemSettings& system);
 
 /// Whether the chief's coefficients are those of the nominal's OPM.
 bool uses_message_of_spacecraft(const TableReader& root, const SystemSettings& system);
+
+/// What the CDM of `[uncertainty.deputy]` says of the deputy, in a scene without [spacecraft].
+SpacecraftSettings spacecraft_of_conjunction(const TableReader& root, const SystemSettings& system);
 
 /// The table `spacecraft` in the table of a deputy, or else what its own OPM says.
 SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSettings& system);

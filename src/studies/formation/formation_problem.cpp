@@ -110,8 +110,7 @@ Scene with_deputy_coefficients(Scene scene) {
 Scene with_deputy_parameters(Scene scene) {
   if (!scene.system.earth) return scene;
   EarthSettings& earth = *scene.system.earth;
-  std::vector<std::string> wanted;
-  for (const Difference& one : differences_of(scene)) wanted.emplace_back(one.parameter);
+  const std::vector<std::string> wanted = differing_parameters(scene);
   if (earth.parameters == wanted) return scene;
   // Deputies have the chief's values of the other parameters, in which nothing need be expanded.
   constexpr std::size_t n = 6;
@@ -131,13 +130,23 @@ Scene with_deputy_parameters(Scene scene) {
 std::vector<double> deputy_parameters(const Scene& scene) {
   std::vector<double> values;
   if (!scene.system.earth) return values;
-  const std::vector<Difference> differences = differences_of(scene);
   for (const std::string& name : scene.system.earth->parameters) {
-    const auto own = std::find_if(differences.begin(), differences.end(),
-                                  [&](const Difference& one) { return one.parameter == name; });
-    values.push_back(own == differences.end() ? 0 : own->deputy - own->chief);
+    values.push_back(parameter_difference(scene, name));
   }
   return values;
+}
+
+std::vector<std::string> differing_parameters(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Difference& one : differences_of(scene)) names.emplace_back(one.parameter);
+  return names;
+}
+
+double parameter_difference(const Scene& scene, std::string_view name) {
+  for (const Difference& one : differences_of(scene)) {
+    if (one.parameter == name) return one.deputy - one.chief;
+  }
+  return 0;
 }
 
 std::vector<double> deputy_deviation(const Scene& scene) {

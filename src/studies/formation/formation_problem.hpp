@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,11 @@ Scene with_deputy_parameters(Scene scene);
 
 /// The deputy's parameters less the chief's, for a scene of with_deputy_parameters.
 std::vector<double> deputy_parameters(const Scene& scene);
+
+/// The names of the parameters in which the deputy differs from the chief, and the difference of
+/// one of all parameters, which is 0 for others.
+std::vector<std::string> differing_parameters(const Scene& scene);
+double parameter_difference(const Scene& scene, std::string_view name);
 
 /// The deputy's deviation (dq, dp) from the chief at the start, canonical, and that of its
 /// parameters, for a scene of with_deputy_parameters.

@@ -17,6 +17,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 #include "initial_states.hpp"
+#include "uncertain_parameters.hpp"
 
 namespace hamjet {
 namespace {
@@ -239,7 +240,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
                                 const ProgressCallback& progress) {
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->collision;
   require_formation_problem(scene, is_asked_for, "uncertainty.collision");
-  require_one_spacecraft(scene, "uncertainty.collision");
+  require_one_encounter(scene, "uncertainty.collision");
   CollisionResult result;
   const auto began = std::chrono::steady_clock::now();
   result.watch = *scene.uncertainty->collision;

@@ -26,6 +26,41 @@ Covariance canonical_covariance(const Covariance& covariance, RelativeFrame fram
   return covariance.mapped(deviations_of_relative_states(own));
 }
 
+/// Adds the parameters of a spacecraft, and those that all share, to a start whose covariance is
+/// that of its state.
+void add_parameters(const UncertaintySettings& settings, const StateUncertainty* known,
+                    const Vector<double>& state, const MetricUnits& units, InitialState& start) {
+  const auto common = static_cast<Eigen::Index>(settings.common.size());
+  const auto own = known ? static_cast<Eigen::Index>(known->parameters.size()) : 0;
+  if (common + own == 0) return;
+  start.common = common;
+  for (const UncertainParameter& one : settings.common) start.parameters.push_back(one.name);
+  Matrix<double> of_own = Matrix<double>::Zero(6 + own, start.covariance.rank() + own);
+  of_own.topLeftCorner(6, start.covariance.rank()) = start.covariance.factor();
+  bool are_independent = true;
+  for (Eigen::Index k = 0; k < own; ++k) {
+    const UncertainParameter& one = known->parameters[static_cast<std::size_t>(k)];
+    start.parameters.push_back(one.name);
+    of_own(6 + k, start.covariance.rank() + k) = one.deviation;
+    for (const double covariance : one.covariances) {
+      are_independent = are_independent && covariance == 0;
+    }
+  }
+  if (!are_independent) {
+    Matrix<double> to_canonical = Matrix<double>::Identity(6 + own, 6 + own);
+    to_canonical.topLeftCorner(6, 6) =
+        deviations_of_relative_states(ChiefFrame(std::span(state.data(), 6), units, known->frame));
+    of_own = Covariance(known->joint_matrix()).mapped(to_canonical).factor();
+  }
+  Matrix<double> factor = Matrix<double>::Zero(6 + common + own, common + of_own.cols());
+  for (Eigen::Index k = 0; k < common; ++k) {
+    factor(6 + k, k) = settings.common[static_cast<std::size_t>(k)].deviation;
+  }
+  factor.block(0, common, 6, of_own.cols()) = of_own.topRows(6);
+  factor.bottomRightCorner(own, of_own.cols()) = of_own.bottomRows(own);
+  start.covariance = Covariance::of_factor(std::move(factor));
+}
+
 /// How far an orbit bends away from the line of a Gaussian in positions.
 struct LineOfPositions {
   double deviation = 0;  ///< standard deviation along the track
@@ -107,8 +142,11 @@ InitialState deputy_in_positions(const Scene& scene, const RelativeState& start)
 }  // namespace
 
 Vector<double> InitialState::deviation(const Vector<double>& linear) const {
-  if (!straight) return mean + linear;
-  return mean + (*straight)(linear);
+  Vector<double> result = linear;
+  const Eigen::Matrix<double, 6, 1> of_state = linear.head<6>();
+  if (straight) result.head(6) = (*straight)(of_state);
+  result.head(6) += mean;
+  return result;
 }
 
 InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
@@ -147,7 +185,8 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share) 
   const MetricUnits units = metric_units(scene);
   const Vector<double> chief = as_vector(scene.nominal);
   std::vector<InitialState> result;
-  if (settings.chief || !scene.deputy) result.push_back({"chief", Vector<double>::Zero(6), {}});
+  const bool is_uncertain = settings.chief || !settings.common.empty();
+  if (is_uncertain || !scene.deputy) result.push_back({"chief", Vector<double>::Zero(6), {}});
   if (settings.chief) {
     result.back().covariance =
         canonical_covariance(settings.chief->covariance, settings.chief->frame, chief, units);
@@ -168,6 +207,9 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share) 
   }
   for (std::size_t i = 0; i < result.size(); ++i) {
     choose_coordinates(scene, of_states[i], result[i]);
+    const bool is_deputy = result[i].name == "deputy";
+    const auto& known = is_deputy ? settings.deputy : settings.chief;
+    add_parameters(settings, known ? &*known : nullptr, chief + result[i].mean, units, result[i]);
   }
   return result;
 }

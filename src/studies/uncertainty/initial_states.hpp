@@ -13,13 +13,20 @@ namespace hamjet {
 /// One spacecraft's distribution at the start.
 struct InitialState {
   std::string name;
-  Vector<double> mean;    ///< canonical deviation from the chief's nominal
-  Covariance covariance;  ///< covariance of linear canonical deviations from the mean
+  Vector<double> mean;  ///< canonical deviation from the chief's nominal
+  /// Covariance of linear canonical deviations from the mean and, behind them, of parameters from
+  /// their nominal values.
+  Covariance covariance;
   /// For a start that is Gaussian in elements: the deviations to which linear ones belong.
   std::optional<StraightDeviations> straight = {};
   std::string why_straight = {};  ///< why `auto` chose elements, as a sentence for people
+  /// The parameters behind the six numbers: first those that all spacecraft share, of which each
+  /// has a column of its own at the beginning of the covariance's factor.
+  std::vector<std::string> parameters = {};
+  Eigen::Index common = 0;  ///< number of parameters that all spacecraft share
 
-  /// The deviation from the chief's nominal that belongs to a linear one from the mean.
+  /// The deviation from the chief's nominal that belongs to a linear one from the mean, with that
+  /// of the parameters, if there are some.
   Vector<double> deviation(const Vector<double>& linear) const;
 };
 

@@ -89,12 +89,18 @@ std::vector<Cumulants> moments_by_order(const std::vector<Series<double>>& map,
   // Polynomials in linear deviations from the mean, up to the order of their space.
   const auto in_linear = [&](std::vector<Series<double>> polynomials) {
     if (!start.straight) return polynomials;
-    return compose(polynomials, start.straight->series(polynomials[0].space_pointer()));
+    const SpacePointer own = polynomials[0].space_pointer();
+    std::vector<Series<double>> inner = start.straight->series(own);
+    for (std::size_t k = inner.size(); k < own->variables(); ++k) {
+      inner.push_back(Series<double>::variable(own, k, 0));
+    }
+    return compose(polynomials, inner);
   };
   std::vector<Cumulants> result;
   std::vector<Series<double>> whole;
   if (!is_moved) whole = in_standard_normals(in_linear(map), start.covariance);
-  const Covariance itself = Covariance::of_factor(Matrix<double>::Identity(6, 6));
+  const auto variables = static_cast<Eigen::Index>(space->variables());
+  const Covariance itself = Covariance::of_factor(Matrix<double>::Identity(variables, variables));
   for (int n = 1; n <= order; ++n) {
     if (is_moved) {
       // A lower order drops terms before the mean is inserted.
@@ -135,10 +141,11 @@ double miss_of_mean(const DeputyFlow& flow, int order, const InitialState& start
   return worst;
 }
 
-void told_of_start(std::vector<Cumulants>& all, const InitialState& start) {
+void told_of_start(std::vector<Cumulants>& all, const InitialState& start, double log_change) {
+  if (!start.parameters.empty()) return;
   const auto volume = Cumulants(Vector<double>::Zero(6), start.covariance).log_volume();
   for (Cumulants& one : all) {
-    if (volume) one.carried_without_compression(*volume);
+    if (volume) one.carried_without_compression(*volume + log_change);
   }
 }
 

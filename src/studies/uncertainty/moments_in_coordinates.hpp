@@ -22,9 +22,10 @@ std::vector<Cumulants> charted_moments(const std::vector<Series<double>>& coordi
                                        const InitialState& start, const FlowJet<double>& jet,
                                        const std::optional<Covariance>& noise);
 
-/// Declares each distribution to be the image of a start under a flow; does nothing if the start's
-/// covariance is singular.
-void told_of_start(std::vector<Cumulants>& all, const InitialState& start);
+/// Declares each distribution to be the image of a start under a flow that multiplies volumes by
+/// exp(`log_change`); does nothing if the start's covariance is singular, or if the start has
+/// parameters, of which the flow makes more than one state.
+void told_of_start(std::vector<Cumulants>& all, const InitialState& start, double log_change = 0);
 
 /// Adds an independent vector, random noise or a known one, to all distributions.
 void add_noise(std::vector<Cumulants>& all, const Cumulants& noise);

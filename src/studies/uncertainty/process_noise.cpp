@@ -1,5 +1,6 @@
 #include "process_noise.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -36,7 +37,11 @@ Covariance ProcessNoise::by_intervals(double time, int count) const {
     // D]].
     const Matrix<double>& at_node = flows[static_cast<std::size_t>(k)];
     Matrix<double> kicks(6, 3);
-    kicks << -at_node.topRightCorner(3, 3).transpose(), at_node.topLeftCorner(3, 3).transpose();
+    if (problem_->system->is_hamiltonian) {
+      kicks << -at_node.topRightCorner(3, 3).transpose(), at_node.topLeftCorner(3, 3).transpose();
+    } else {
+      kicks = Eigen::PartialPivLU<Matrix<double>>(at_node).inverse().rightCols(3);
+    }
     factor.middleCols(3 * static_cast<Eigen::Index>(k), 3) =
         std::sqrt(share) * (flows.back() * kicks);
   }

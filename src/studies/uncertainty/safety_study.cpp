@@ -12,6 +12,7 @@
 #include "along_track_bend.hpp"
 #include "hamjet/error.hpp"
 #include "initial_states.hpp"
+#include "uncertain_parameters.hpp"
 
 namespace hamjet {
 namespace {
@@ -83,7 +84,7 @@ SafetyResult study_safety(const Scene& scene, std::size_t threads,
                           const ProgressCallback& progress) {
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->safety;
   require_formation_problem(scene, is_asked_for, "uncertainty.safety");
-  require_one_spacecraft(scene, "uncertainty.safety");
+  require_one_encounter(scene, "uncertainty.safety");
   SafetyResult result;
   {
     const Stopwatch watch(result.seconds);

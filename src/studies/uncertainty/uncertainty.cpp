@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,7 +10,6 @@
 #include <numeric>
 
 #include "../../algebra/singular_values.hpp"
-#include "../../integrators/taylor_flow.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
@@ -25,7 +25,9 @@
 #include "process_noise.hpp"
 #include "quadrature.hpp"
 #include "sample_memory.hpp"
+#include "sampled_flights.hpp"
 #include "standard_normals.hpp"
+#include "uncertain_parameters.hpp"
 
 namespace hamjet {
 namespace {
@@ -33,53 +35,6 @@ namespace {
 /// Nodes of the quadrature through curved coordinates: most along what the flow stretches most.
 const std::vector<int> finer_nodes = {15, 7, 5, 3, 3, 3};
 const std::vector<int> coarser_nodes = {11, 5, 3, 3, 3, 3};
-
-/// States that are flown side by side, columns; the first is the chief's nominal.
-class Flights {
- public:
-  Flights(const SharedSystem& system, const Scene& scene, const InitialState& start, int samples,
-          StandardNormals& normals)
-      : flow_(system), start_time_(scene.start_time), samples_(static_cast<std::size_t>(samples)) {
-    const Matrix<double>& factor = start.covariance.factor();
-    states_.reserve(6 * (samples_ + 1));
-    states_.assign(scene.nominal.begin(), scene.nominal.end());
-    Vector<double> numbers(factor.cols());
-    for (std::size_t k = 0; k < samples_; ++k) {
-      for (double& number : numbers) number = normals();
-      const Vector<double> deviation = start.deviation(factor * numbers);
-      for (std::size_t i = 0; i < 6; ++i) {
-        states_.push_back(scene.nominal[i] + deviation[static_cast<Eigen::Index>(i)]);
-      }
-    }
-  }
-
-  void advance_to(double time, const ProgressCallback& progress) {
-    constexpr std::size_t at_once = 4096;  // between two reports of progress
-    const std::vector<double> times(at_once, time - time_);
-    for (std::size_t k = 0; k <= samples_; k += at_once) {
-      if (progress) progress("flights", static_cast<double>(k) / static_cast<double>(samples_ + 1));
-      const std::size_t count = std::min(at_once, samples_ + 1 - k);
-      flow_.advance(std::span(states_).subspan(6 * k, 6 * count), start_time_ + time_,
-                    std::span(times).first(count));
-    }
-    time_ = time;
-  }
-
-  /// Canonical deviations from the chief's nominal.
-  Matrix<double> deviations() const {
-    const Eigen::Map<const Matrix<double>> states(states_.data(), 6,
-                                                  static_cast<Eigen::Index>(samples_ + 1));
-    return states.rightCols(static_cast<Eigen::Index>(samples_)).colwise() -
-           Vector<double>(states.col(0));
-  }
-
- private:
-  TaylorFlow flow_;
-  ClockTime start_time_;
-  std::size_t samples_;
-  std::vector<double> states_;
-  double time_ = 0;  ///< since the start
-};
 
 /// The same polynomials in standard normal variables that are turned so that the first is the one
 /// that the linear flow stretches most.
@@ -137,7 +92,8 @@ std::vector<std::optional<Cumulants>> moments_through(const DeputyFlow& flow, in
   return moments;
 }
 
-/// The jets of one spacecraft about its own mean, from time to time.
+/// The jets of one spacecraft about its own mean, from time to time; the problem is that of
+/// scene_of_start.
 JetPropagation own_jets(ComputedProblem problem, const IntegratorSettings& settings,
                         const InitialState& start) {
   for (std::size_t i = 0; i < 6; ++i) {
@@ -171,8 +127,9 @@ void add_noise(Matrix<double>& deviations, const Covariance& noise, StandardNorm
 /// that about the spacecraft's own mean, which is `between` from the chief. `flow`, `coordinates`
 /// and `period_place` are those of the scene's other coordinates, if it has such.
 UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
-                          const FlowJet<double>& own, const Vector<double>& between,
-                          const DeputyFlow* flow, const std::vector<Series<double>>& coordinates,
+                          const FlowJet<double>& own, bool keeps_volumes,
+                          const Vector<double>& between, const DeputyFlow* flow,
+                          const std::vector<Series<double>>& coordinates,
                           std::optional<std::size_t> period_place,
                           const std::optional<Covariance>& noise) {
   const int order = jet[0].order();
@@ -180,7 +137,12 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   state.name = start.name;
   state.cartesian = moments_by_order(without_constants(own), {start.name, Vector<double>::Zero(6),
                                                               start.covariance, start.straight});
-  told_of_start(state.cartesian, start);
+  const Matrix<double> linear = linear_part(own);
+  const double change =
+      keeps_volumes || linear.cols() != 6
+          ? 0
+          : std::log(std::abs(Eigen::PartialPivLU<Matrix<double>>(linear).determinant()));
+  told_of_start(state.cartesian, start, change);
   if (between.norm() > 0) add_noise(state.cartesian, Cumulants(between, {}));
   if (flow) {
     state.charted = charted_moments(coordinates, period_place, start, jet, noise);
@@ -199,7 +161,7 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
             std::max({state.through_doubt, doubt.deviation, doubt.skewness, doubt.kurtosis});
       }
     }
-    told_of_start(state.through, start);
+    told_of_start(state.through, start, change);
   }
   if (noise) {
     const Cumulants added(Vector<double>::Zero(6), *noise);
@@ -259,9 +221,12 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
 UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress,
                                     std::size_t threads) {
   require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
-  require_one_spacecraft(scene, "uncertainty");
+  require_states_alone(scene, "uncertainty");
   require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
+  // Before anything is computed that they would follow.
+  if (settings.collision) require_one_encounter(scene, "uncertainty.collision");
+  if (settings.safety) require_one_encounter(scene, "uncertainty.safety");
   UncertaintyResult result;
   result.scene = scene;
   const MetricUnits units = metric_units(scene);
@@ -269,19 +234,33 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   for (const InitialState& start : starts) {
     if (!start.why_straight.empty()) result.start_notes.push_back(start.why_straight);
   }
+  require_moments_of_parameters(scene, starts);
   const ComputedProblem problem = make_problem(scene);
   const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.integrator = integrator.label;
-  const ChosenCoordinates coordinates_at_ends = measured_coordinates_of(scene);
+  const bool have_own_flows =
+      std::any_of(starts.begin(), starts.end(),
+                  [&](const InitialState& start) { return takes_own_flow(scene, start); });
+  const ChosenCoordinates coordinates_at_ends =
+      have_own_flows ? ChosenCoordinates{} : measured_coordinates_of(scene);
   result.coordinates = coordinates_at_ends;
   result.coordinates.start = coordinates_at_ends.end;
   const bool is_charted = result.coordinates != JetCoordinates::cartesian;
   JetPropagation jets(problem, integrator);
   // The chief's mean is its nominal.
   std::vector<std::optional<JetPropagation>> own_flows(starts.size());
+  std::vector<Scene> own_scenes(starts.size(), scene);
+  std::vector<SharedSystem> own_systems(starts.size(), problem.system);
   for (std::size_t s = 0; s < starts.size(); ++s) {
+    ComputedProblem own = problem;
+    const bool has_own = takes_own_flow(scene, starts[s]);
+    if (has_own) {
+      own_scenes[s] = scene_of_start(scene, starts[s]);
+      own = make_problem(own_scenes[s]);
+      own_systems[s] = own.system;
+    }
     const bool is_moved = (starts[s].mean.array() != 0).any();
-    if (is_moved) own_flows[s].emplace(own_jets(problem, integrator, starts[s]));
+    if (is_moved || has_own) own_flows[s].emplace(own_jets(std::move(own), integrator, starts[s]));
   }
   std::optional<DeputyFlowPropagation> charts;
   if (is_charted) charts.emplace(scene, problem, integrator, coordinates_at_ends);
@@ -295,11 +274,13 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
                   nominal_period(scene).value_or(2 * std::numbers::pi));
   }
   StandardNormals normals(settings.seed);
-  std::vector<Flights> flights;
-  for (const InitialState& start : starts) {
-    if (settings.samples < 2) break;
-    flights.emplace_back(problem.system, scene, start, settings.samples, normals);
+  std::vector<SampledFlights> flights;
+  Matrix<double> common_normals;
+  for (std::size_t s = 0; s < starts.size() && settings.samples >= 2; ++s) {
+    flights.emplace_back(own_systems[s], own_scenes[s], starts[s], settings.samples, normals,
+                         common_normals);
   }
+  SampledFlights flown_chief = SampledFlights::of_nominal(problem.system, scene);
 
   FlowJet<double> jet_at_end;
   std::vector<MeanOfStart> means(starts.size());
@@ -326,24 +307,28 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
         relative_states_of_deviations(ChiefFrame(chief, units, settings.frame));
     std::optional<Covariance> added;
     if (noise) added = noise->at(time);
+    if (!flights.empty()) flown_chief.advance_to(time, {});
+    std::vector<FlowJet<double>> own_jets_at;
     for (std::size_t s = 0; s < starts.size(); ++s) {
       UncertainState state;
       {
         const Stopwatch watch(result.moments_seconds);
-        const FlowJet<double> own = own_flows[s] ? own_flows[s]->advance_to(time) : jet;
+        FlowJet<double> own = own_flows[s] ? own_flows[s]->advance_to(time) : jet;
+        own.erase(own.begin() + 6, own.end());  // the parameters, which stay
         means[s] = mean_of(starts[s], jet, own, to_frame);
         const bool has_charts =
             flow && !is_distant(starts[s], scene) &&
             miss_of_mean(*flow, scene.order, starts[s], means[s]) <= largest_miss;
-        state = moments_of(starts[s], jet, own, means[s].deviation,
+        state = moments_of(starts[s], jet, own, problem.system->is_hamiltonian, means[s].deviation,
                            has_charts ? flow.get() : nullptr, coordinates, period_place, added);
         map_all(state.cartesian, to_frame);
         map_all(state.through, to_frame);
+        own_jets_at.push_back(std::move(own));
       }
       if (s < flights.size()) {
         const Stopwatch watch(result.flight_seconds);
         flights[s].advance_to(time, progress);
-        state.flown_states = flights[s].deviations();
+        state.flown_states = flights[s].deviations(flown_chief.first());
         if (added) add_noise(state.flown_states, *added, normals);
         state.flown_states = to_frame * state.flown_states;
         if (!state.flown_states.allFinite()) {
@@ -359,6 +344,20 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
       at.states.push_back(std::move(state));
     }
     if (at.states.size() == 2) at.states.push_back(difference(at.states[1], at.states[0]));
+    if (at.states.size() == 3 && starts[0].common > 0) {
+      const Stopwatch watch(result.moments_seconds);
+      std::vector<Cumulants>& relative = at.states[2].cartesian;
+      relative = relative_moments(without_constants(own_jets_at[1]), starts[1],
+                                  without_constants(own_jets_at[0]), starts[0]);
+      const Vector<double> between = means[1].deviation - means[0].deviation;
+      add_noise(relative, Cumulants(between, added ? added->plus(*added) : Covariance()));
+      map_all(relative, to_frame);
+    }
+    std::vector<Matrix<double>> linear_flows;
+    for (const FlowJet<double>& own : own_jets_at) {
+      linear_flows.push_back(to_frame * linear_part(own));
+    }
+    result.parameter_effects = parameter_effects(starts, linear_flows);
     result.points.push_back(std::move(at));
     jet_at_end = jet;
     noise_at_end = added;

@@ -69,6 +69,18 @@ struct MomentsInCoordinates {
   std::string refusal;  ///< if not empty, the reason why there are no moments
 };
 
+/// What one uncertain parameter alone does to the states at the last time, linearly.
+struct ParameterEffect {
+  std::string spacecraft;  ///< whose parameter it is: "chief", "deputy", or "all"
+  std::string parameter;
+  double deviation = 0;  ///< standard deviation of the parameter, in its own unit
+  struct Along {
+    std::string state;          ///< as UncertainState::name
+    Vector<double> deviations;  ///< six, in the frame of the results
+  };
+  std::vector<Along> along;
+};
+
 struct UncertaintyResult {
   Scene scene;  ///< with `uncertainty`
   std::string integrator;
@@ -76,6 +88,7 @@ struct UncertaintyResult {
   /// Why starts are Gaussian in elements where the scene leaves the choice open, as sentences.
   std::vector<std::string> start_notes;
   std::vector<UncertaintyAt> points;
+  std::vector<ParameterEffect> parameter_effects;    ///< of every uncertain parameter
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   std::optional<CollisionResult> collision;          ///< if the scene asks for it
   std::optional<SafetyResult> safety;                ///< likewise

@@ -5,6 +5,22 @@
 
 namespace hamjet {
 
+Matrix<double> StateUncertainty::joint_matrix() const {
+  const auto count = static_cast<Eigen::Index>(parameters.size());
+  Matrix<double> matrix = Matrix<double>::Zero(6 + count, 6 + count);
+  matrix.topLeftCorner(6, 6) = covariance.matrix();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const UncertainParameter& parameter = parameters[static_cast<std::size_t>(k)];
+    const Eigen::Index row = 6 + k;
+    for (std::size_t j = 0; j < parameter.covariances.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      matrix(row, column) = matrix(column, row) = parameter.covariances[j];
+    }
+    matrix(row, row) = parameter.deviation * parameter.deviation;
+  }
+  return matrix;
+}
+
 Covariance BurnUncertainty::covariance() const {
   const double size = velocity_change_m_s.norm();
   Matrix<double> factor = Matrix<double>::Zero(6, 3);

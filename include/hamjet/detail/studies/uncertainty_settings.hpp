@@ -23,10 +23,23 @@ enum class GaussianIn {
 inline constexpr std::array<std::string_view, 3> gaussian_in_names = {"auto", "positions",
                                                                       "elements"};
 
+/// A parameter of the forces that is not known exactly.
+struct UncertainParameter {
+  std::string name;      ///< as in jet.variables
+  double deviation = 0;  ///< standard deviation, in the parameter's own unit
+  /// Covariances with the spacecraft's position and velocity, and with the parameters that stand
+  /// before this one; missing ones are 0.
+  std::vector<double> covariances = {};
+};
+
 /// How accurately the state of a spacecraft at the start is known.
 struct StateUncertainty {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< frame of the spacecraft's own orbit
   Covariance covariance;                              ///< in metres and metres per second
+  std::vector<UncertainParameter> parameters = {};    ///< of this spacecraft alone
+
+  /// The covariance of position, velocity and parameters, as it is told.
+  Matrix<double> joint_matrix() const;
 };
 
 /// Execution errors, after Gates, of a velocity change that ends at the scene's start: an error of
@@ -84,6 +97,8 @@ struct UncertaintySettings {
   RelativeFrame frame = RelativeFrame::rtn_inertial;  ///< frame of the results, at the chief
   std::optional<StateUncertainty> chief;              ///< absent if the state is known exactly
   std::optional<StateUncertainty> deputy;
+  /// Parameters that all spacecraft share, such as the factor of densities.
+  std::vector<UncertainParameter> common;
   GaussianIn gaussian_in = GaussianIn::automatic;
   /// Burn of the deputy, or of the chief in a scene without one.
   std::optional<BurnUncertainty> burn;
