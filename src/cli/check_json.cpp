@@ -16,6 +16,7 @@
 #include "../store/text_file.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/checks/force_sizes.hpp"
+#include "../studies/flights/manoeuvred_flight.hpp"
 #include "../studies/flights/relative_drift.hpp"
 #include "../studies/uncertainty/sample_memory.hpp"
 #include "../text/message_place.hpp"
@@ -55,7 +56,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
   const std::size_t threads = thread_count(options);
   PropagationResult nothing_run;
   nothing_run.scene = scene;
-  nothing_run.problem = make_problem(scene, threads);
+  nothing_run.problem = make_problem(without_manoeuvres(scene), threads);
   Json json = Json::parse(io::summary_json(nothing_run));
   for (const char* of_runs : {"reference_error", "relative_hamiltonian_error", "exit_code", "runs",
                               "operations", "skipped"}) {

@@ -20,6 +20,7 @@
 #include "../studies/checks/force_sizes.hpp"
 #include "../studies/checks/run_warnings.hpp"
 #include "../studies/descriptions/method_description.hpp"
+#include "../studies/flights/manoeuvred_flight.hpp"
 #include "../studies/flights/relative_drift.hpp"
 #include "../studies/integration.hpp"
 #include "../studies/skipped_work.hpp"
@@ -149,7 +150,7 @@ std::string field_text(const SystemSettings& system) {
 
 void check_flow_jet(const RunOptions& options, const std::string& file, const Scene& scene) {
   const std::size_t threads = thread_count(options);
-  const ComputedProblem problem = make_problem(scene, threads);
+  const ComputedProblem problem = make_problem(without_manoeuvres(scene), threads);
   const auto names = variable_names(scene.system);
   std::string components;
   for (const std::size_t c : problem.components) components += fmt::format(" {}", names[c]);

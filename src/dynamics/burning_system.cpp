@@ -49,8 +49,10 @@ DynamicalSystem burning_system(const DynamicalSystem& system, const BurningThrus
         const auto c = z.subspan(first, 3);
         const Expression share = thrust.mass_falls ? 1 / (z[first + 3] - z.back()) : Expression(1);
         std::vector<Expression> force;
-        if (thrust.turns_with_orbit) {
-          const auto axes = orbit_axes(z.first(3), z.subspan(3, 3));
+        if (thrust.axes != ThrustAxes::inertial) {
+          const auto axes = thrust.axes == ThrustAxes::rtn
+                                ? orbit_axes(z.first(3), z.subspan(3, 3))
+                                : velocity_axes(z.first(3), z.subspan(3, 3));
           for (std::size_t i = 0; i < 3; ++i) {
             force.push_back((c[0] * axes[0][i] + c[1] * axes[1][i] + c[2] * axes[2][i]) * share);
           }

@@ -2,15 +2,14 @@
 
 #include <cstddef>
 
+#include "hamjet/detail/dynamics/thrust_axes.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
 
 /// What a thrust that burns is like.
 struct BurningThrust {
-  /// Whether its direction stays the same along R, T, N of the spacecraft's own orbit, and not
-  /// along the inertial axes.
-  bool turns_with_orbit = true;
+  ThrustAxes axes = ThrustAxes::rtn;
   bool mass_falls = false;
 
   /// The numbers with which states of the system end.

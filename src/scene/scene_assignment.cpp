@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
@@ -69,6 +70,7 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   assignment.read_if_any("keep_apart_m", settings.keep_apart_m);
   settings.deputies = read_states<RelativeState>(
       assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
+        refuse_manoeuvres(table);
         return read_relative_state(table, nominal, scene.transfer->frame);
       });
   settings.slots =

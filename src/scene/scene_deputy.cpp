@@ -1,3 +1,4 @@
+#include "scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 #include "systems/scene_spacecraft.hpp"
 
@@ -28,6 +29,7 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
   settings.start =
       read_relative_state(deputy, nominal, settings.frame,
                           is_anywhere ? DeputyPlace::anywhere : DeputyPlace::near_chief);
+  settings.manoeuvres = read_manoeuvres(deputy, scene.system, nominal.scale);
   const SpacecraftSettings spacecraft = read_spacecraft(deputy, scene.system);
   settings.drag_m2_kg = spacecraft.drag_m2_kg;
   settings.radiation_m2_kg = spacecraft.radiation_m2_kg;

@@ -304,6 +304,10 @@ std::optional<OpmSpacecraft> spacecraft_of_orbit_file(const TableReader& table) 
   return read_message(table, "opm_file", AcceptedFrames::terrestrial_too).parameters->spacecraft;
 }
 
+OrbitParameterMessage parameters_of_orbit_file(const TableReader& table) {
+  return *read_message(table, "opm_file", AcceptedFrames::terrestrial_too).parameters;
+}
+
 std::optional<Epoch> epoch_of_nominal_file(const TableReader& nominal) {
   const auto settings = settings_of_orbit_file(nominal);
   return settings ? parse_epoch(settings->epoch) : std::nullopt;

@@ -45,6 +45,9 @@ std::optional<EphemerisSettings> settings_of_orbit_file(const TableReader& table
 /// settings_of_orbit_file.
 std::optional<OpmSpacecraft> spacecraft_of_orbit_file(const TableReader& table);
 
+/// The OPM of a table, which must have one. Throws as settings_of_orbit_file.
+OrbitParameterMessage parameters_of_orbit_file(const TableReader& table);
+
 /// The frames in which a scene's messages may be: the model `earth` knows how the Earth's axes
 /// turn.
 AcceptedFrames frames_of(const SystemSettings& system);

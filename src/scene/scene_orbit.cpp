@@ -6,6 +6,7 @@
 
 #include "../text/scene_message.hpp"
 #include "scene_elements.hpp"
+#include "scene_manoeuvres.hpp"
 #include "scene_sections.hpp"
 #include "systems/scene_earth.hpp"
 
@@ -13,7 +14,8 @@ namespace hamjet::io {
 namespace {
 
 const std::vector<std::string_view> cartesian_keys = {"position_km", "velocity_km_s"};
-const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object"};
+const std::vector<std::string_view> file_keys = {"oem_file", "opm_file", "epoch", "object",
+                                                 "manoeuvres"};
 
 const std::vector<std::string_view>& names_of_elements() {
   static const std::vector<std::string_view> names = TableDescription{element_keys()}.names();
@@ -56,7 +58,8 @@ std::vector<SceneKey> orbit_keys(const std::vector<std::string_view>& owners) {
         {"epoch", form_of_epoch(), absent::other("the first of the file"),
          "epoch of the state to take; nothing is interpolated", owners},
         {"object", form::text(), absent::other("the only one of the file"),
-         "name or identifier of the object to take", owners}}});
+         "name or identifier of the object to take", owners},
+        manoeuvres_key(owners)}});
 }
 
 std::optional<std::string_view> orbit_key_of(const TableReader& table) {

@@ -7,6 +7,7 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
+#include "scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 #include "systems/scene_earth.hpp"
 #include "systems/scene_own_system.hpp"
@@ -73,6 +74,9 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     nominal = read_start(root, scene, units);
     if (root.has("units")) scene.told_units = canonical_units(nominal.told);
     scene.nominal_file = nominal.file;
+    if (is_orbit(scene.system.model)) {
+      scene.manoeuvres = read_manoeuvres(root.table("nominal"), scene.system, nominal.scale);
+    }
     if (scene.nominal_file && uses_message_of_spacecraft(root, scene.system)) {
       std::erase(scene.nominal_file->unused, "spacecraft parameters");
     }

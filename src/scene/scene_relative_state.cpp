@@ -279,7 +279,7 @@ std::vector<SceneKey> arrival_keys() {
   // A message is for one moment, but an arrival for as many moments as there are transfer times.
   std::erase_if(keys, [](const SceneKey& key) {
     return key.name == "opm_file" || key.name == "oem_file" || key.name == "epoch" ||
-           key.name == "object";
+           key.name == "object" || key.name == "manoeuvres";
   });
   return keys;
 }

@@ -9,6 +9,7 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../text/scene_message.hpp"
+#include "scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
@@ -57,6 +58,7 @@ FramedTable read_end(const TableReader& fallback, std::string_view key, const No
   if constexpr (std::is_same_v<State, ArrivalState>) {
     state = read_arrival(end, nominal);
   } else {
+    refuse_manoeuvres(end);
     state = read_relative_state(end, nominal, frame);
   }
   const bool is_of_fallback = !end.has("frame") && fallback.has("frame");

@@ -8,6 +8,7 @@
 #include "../integrators/momentum_unit.hpp"
 #include "descriptions/method_description.hpp"
 #include "descriptions/system_description.hpp"
+#include "flights/manoeuvred_flight.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "memory_use/needed_memory.hpp"
 
@@ -57,6 +58,7 @@ void require_good_integrators(const Scene& scene) {
 
 ComputedProblem make_problem(const Scene& scene, std::size_t threads) {
   require_good_integrators(scene);
+  require_coasting(scene);
   if (!scene.jet_times.empty()) require_unsplit(scene, "a list of times");
   const DynamicalSystem full = make_system(scene);
   const std::size_t n = full.degrees_of_freedom;

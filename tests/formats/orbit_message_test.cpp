@@ -264,11 +264,53 @@ TEST(OrbitMessage, DamagedParametersAreRefusedWithTheirLine) {
   for (const Damage& damage : damages) {
     expect_refused(read, changed(standard_opm, damage.from, damage.to), damage.words);
   }
-  expect_refused(
-      read, std::string(standard_opm) + standard_maneuver,
-      {"a.opm:42: MAN_EPOCH_IGNITION: a manoeuvre, got one behind the state, must be left "
-       "out: the orbit coasts from EPOCH"});
+  const std::vector<Damage> of_manoeuvre = {
+      {"132.60 ",
+       "-1 ",
+       {"a.opm:43: MAN_DURATION: a burn that ends before it begins, got -1 s, must be 0"}},
+      {"-18.418", "18.418", {"a.opm:44: MAN_DELTA_MASS: a mass that grows, got 18.418 kg"}},
+      {"EME2000",
+       "LVLH",
+       {"a.opm:45: MAN_REF_FRAME: axes along which no thrust is flown, got \"LVLH\""}},
+      {"0.01683160       [km/s]", "16.8 [m/s]", {"a.opm:47: MAN_DV_2: wrong unit, got \"[m/s]\""}},
+      {"MAN_DV_3 ", "MAN_DV_4 ", {"a.opm:48: MAN_DV_4: unknown keyword here"}},
+      {"MAN_DURATION       =    132.60             [s]\n",
+       "",
+       {"a.opm:48: MAN_DURATION: missing, got nothing up to here"}},
+      {"MAN_DURATION ", "MAN_DV_1 ", {"a.opm:46: MAN_DV_1: there twice, got it in line 43 too"}}};
+  for (const Damage& damage : of_manoeuvre) {
+    expect_refused(read,
+                   std::string(standard_opm) + changed(standard_maneuver, damage.from, damage.to),
+                   damage.words);
+  }
   expect_refused(read, standard_rotating_opm, {"a.opm:8: REF_FRAME: a frame that rotates"});
+}
+
+// The two manoeuvres of the standard's example: a burn, and an impulse, of which the standard says
+// that its duration is 0.
+TEST(OrbitMessage, ManoeuvresAreReadAndWrittenAsTheyAre) {
+  const std::string impulse =
+      "MAN_EPOCH_IGNITION = 2021-06-05T18:59:21\nMAN_DURATION = 0.00 [s]\n"
+      "MAN_DELTA_MASS = -1.469 [kg]\nMAN_REF_FRAME = rtn\nMAN_DV_1 = 0.00101500 [km/s]\n"
+      "MAN_DV_2 = -0.00187300 [km/s]\nMAN_DV_3 = 0 [km/s]\n";
+  const std::string text = std::string(standard_opm) + standard_maneuver + impulse;
+  const OrbitParameterMessage message = read_opm("a.opm", text);
+  ASSERT_EQ(message.manoeuvres.size(), 2U);
+  const OpmManoeuvre& burn = message.manoeuvres[0];
+  EXPECT_EQ(format_epoch(burn.ignition), "2021-06-03T09:00:34.100000000000");
+  EXPECT_EQ(burn.duration_s, 132.6);
+  EXPECT_EQ(burn.mass_change_kg, -18.418);
+  EXPECT_EQ(burn.reference_frame, "EME2000");
+  EXPECT_EQ(burn.change_km_s, (std::array<double, 3>{-0.023257, 0.0168316, -0.00893444}));
+  EXPECT_EQ(burn.line, 42U);
+  EXPECT_EQ(message.manoeuvres[1].duration_s, 0);
+  EXPECT_EQ(message.manoeuvres[1].reference_frame, "RTN");
+  // Written and read again it is the same text.
+  const std::string written = opm_text(message);
+  const OrbitParameterMessage again = read_opm("b.opm", written);
+  EXPECT_EQ(opm_text(again), written);
+  EXPECT_EQ(again.manoeuvres[0].change_km_s, burn.change_km_s);
+  EXPECT_EQ(again.manoeuvres[0].ignition, burn.ignition);
 }
 
 TEST(OrbitMessage, ParametersOfVersion1AreRead) {

@@ -350,7 +350,7 @@ TEST(FiniteBurns, DerivativesAreThoseOfFlights) {
       scene.thruster->exhaust_m_s = 10;
     }
     const ComputedProblem problem = make_problem(scene);
-    const SharedSystem burning = burning_system(*problem.system, {true, mass_falls});
+    const SharedSystem burning = burning_system(*problem.system, {ThrustAxes::rtn, mass_falls});
     const BurnFlight flight(scene, problem, burning, 2.5);
     const CanonicalThruster thruster(*scene.thruster, flight.units());
     const std::vector<Impulse> at = {{0, {}}, {1, {}}, {2.5, {}}};

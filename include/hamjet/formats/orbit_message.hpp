@@ -98,6 +98,18 @@ struct OpmSpacecraft {
   std::optional<double> drag_coefficient = {};       ///< DRAG_COEFF
 };
 
+/// A velocity change that an OPM tells: an impulse, or a burn whose direction stays the same along
+/// its axes.
+struct OpmManoeuvre {
+  Epoch ignition;             ///< MAN_EPOCH_IGNITION, in the time system of the message
+  double duration_s = 0;      ///< MAN_DURATION; 0 for an impulse
+  double mass_change_kg = 0;  ///< MAN_DELTA_MASS; 0 or negative
+  /// MAN_REF_FRAME, in capitals: an inertial frame, or RTN, RSW or TNW of the object's own orbit.
+  std::string reference_frame;
+  std::array<double, 3> change_km_s = {};  ///< MAN_DV_1, MAN_DV_2, MAN_DV_3
+  std::size_t line = 0;                    ///< line of MAN_EPOCH_IGNITION, if the message was read
+};
+
 /// An Orbit Parameter Message (OPM): the state of one object at one moment.
 struct OrbitParameterMessage {
   std::string version;
@@ -112,6 +124,7 @@ struct OrbitParameterMessage {
   std::optional<OrbitElements> elements = {};
   std::optional<OrbitCovariance> covariance = {};
   OpmSpacecraft spacecraft = {};
+  std::vector<OpmManoeuvre> manoeuvres = {};  ///< in the order of the message
   /// Other contents of the message, which are not used: "Keplerian elements", "spacecraft
   /// parameters", "covariance", "user-defined parameters".
   std::vector<std::string> unused;
@@ -134,8 +147,8 @@ OrbitEphemerisMessage read_oem(const std::string& name, std::string_view text,
 
 /// Reads an OPM; otherwise as read_oem. Units, where they are written, must be those of the
 /// standard. Faults of numbers that are not used (elements, spacecraft parameters) are listed in
-/// `doubts`. META_START and META_STOP, which some programs write as in an OEM, are skipped. It also
-/// throws for a manoeuvre, because the state does not contain its effect.
+/// `doubts`. META_START and META_STOP, which some programs write as in an OEM, are skipped. The
+/// numbers of manoeuvres must be right, for the state does not contain their effect.
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
                                AcceptedFrames frames = AcceptedFrames::inertial);
 
@@ -144,7 +157,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
 /// written again is the same text. Texts must be printable ASCII.
 std::string oem_text(const OrbitEphemerisMessage& message);
 
-/// Writes an OPM of the state and the spacecraft as text; otherwise as oem_text.
+/// Writes an OPM of the state, the spacecraft and its manoeuvres as text; otherwise as oem_text.
 std::string opm_text(const OrbitParameterMessage& message);
 
 /// Whether the axes of a reference frame are known not to rotate.

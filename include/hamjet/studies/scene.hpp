@@ -125,7 +125,8 @@ struct Scene {
   /// The system's clock at the nominal. A scene that is read starts at the epoch; one that flies
   /// on, or back, from a state that another one reached starts at that state's time.
   ClockTime start_time = ClockTime::epoch();
-  double duration = 0;  ///< in canonical units; negative is backwards
+  double duration = 0;                ///< in canonical units; negative is backwards
+  std::vector<Manoeuvre> manoeuvres;  ///< of the nominal's orbit message, in order of time
   int order = 1;
   /// `jet.arcs`: the number of arcs into which the flow is split; absent ("auto") if it is chosen
   /// from the operation counts.

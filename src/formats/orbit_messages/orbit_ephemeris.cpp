@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <span>
 
+#include "../../algebra/state_sums.hpp"
+#include "../../studies/exact_flow.hpp"
+#include "../../studies/formation/formation_problem.hpp"
+#include "../../studies/formation/single_transfer.hpp"
 #include "../output_formats.hpp"
 #include "../relative_frame_text.hpp"
 #include "../xml/orbit_message_xml.hpp"
@@ -216,6 +220,125 @@ std::vector<ReportFile> transfer_oems(const TransferResult& result,
   if (scene.output.has(oem_xml_format.name)) {
     files.push_back({"chief.oem.xml", oem_xml(chief)});
     files.push_back({"deputy.oem.xml", oem_xml(deputy)});
+  }
+  return files;
+}
+
+namespace {
+
+/// What a transfer's OPM tells as manoeuvres.
+struct MessagePlan {
+  std::vector<Impulse> impulses;
+  const BurnPlan* burns = nullptr;
+  std::string name;
+
+  double start() const { return burns != nullptr ? std::min(0.0, burns->burns.front().start) : 0; }
+};
+
+MessagePlan message_plan(const TransferResult& result) {
+  if (result.burns && result.burns->least) {
+    const BurnPlan& plan = result.burns->plans[*result.burns->least];
+    return {{}, &plan, "the burns of the thruster"};
+  }
+  if (result.optimal && result.optimal->is_found()) {
+    return {result.optimal->plan->impulses, nullptr, "the optimal impulses"};
+  }
+  const TransferPoint& point = result.points[*result.best_point()];
+  return {{{0, point.best().start_change_m_s}, {point.time, point.best().end_change_m_s}},
+          nullptr,
+          "the two impulses of the best time"};
+}
+
+/// The axes in which changes along inertial axes are told.
+std::string inertial_axes_of(const Scene& scene) {
+  return scene.system.earth ? "GCRF" : scene.ephemeris->reference_frame;
+}
+
+std::vector<OpmManoeuvre> manoeuvres_of(const Scene& scene, const MessagePlan& plan,
+                                        const SharedSystem& chief_system) {
+  std::vector<OpmManoeuvre> manoeuvres;
+  for (const Impulse& impulse : plan.impulses) {
+    const std::vector<double> chief =
+        impulse.time == 0 ? scene.nominal
+                          : exact_flow(chief_system, scene.nominal, scene.start_time, impulse.time);
+    const ChiefFrame frame(chief, metric_units(scene), scene.transfer->frame);
+    const std::vector<double> change =
+        frame.deviation({Eigen::Vector3d::Zero(), impulse.change_m_s});
+    OpmManoeuvre one{moment_of(scene, impulse.time), 0, 0, inertial_axes_of(scene), {}, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      one.change_km_s[i] = change[3 + i] * scene.units.length_km / scene.units.time_s;
+    }
+    manoeuvres.push_back(std::move(one));
+  }
+  if (plan.burns == nullptr) return manoeuvres;
+  const bool is_rtn = scene.thruster->attitude == BurnAttitude::rtn;
+  for (const FiniteBurn& burn : plan.burns->burns) {
+    OpmManoeuvre one{moment_of(scene, burn.start),
+                     (burn.end - burn.start) * scene.units.time_s,
+                     -burn.propellant_kg.value_or(0),
+                     is_rtn ? "RTN" : inertial_axes_of(scene),
+                     {},
+                     0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      one.change_km_s[i] = burn.direction[static_cast<Eigen::Index>(i)] * burn.change_m_s / 1000;
+    }
+    manoeuvres.push_back(std::move(one));
+  }
+  return manoeuvres;
+}
+
+/// A spacecraft of the transfer at the plan's moment.
+OrbitParameterMessage opm_of_transfer(const Scene& scene, const std::string& source, double time,
+                                      const std::vector<double>& state) {
+  OrbitEphemerisMessage common = message_of(scene, source);
+  OrbitParameterMessage message;
+  message.version = common.version;
+  message.comments = std::move(common.comments);
+  message.creation_date = common.creation_date;
+  message.originator = std::move(common.originator);
+  message.metadata = std::move(common.segments.front().metadata);
+  message.state_comments = std::move(common.segments.front().comments);
+  std::vector<OrbitState> one = {orbit_state(scene, time, state)};
+  turn_to_axes(scene, one);
+  message.state = one.front();
+  return message;
+}
+
+}  // namespace
+
+std::vector<ReportFile> transfer_opms(const TransferResult& result) {
+  const Scene& scene = result.scene;
+  const MessagePlan plan = message_plan(result);
+  const double start = plan.start();
+  const SharedSystem chief_system(make_system(scene));
+  const SharedSystem deputy_system(make_system(with_deputy_coefficients(scene)));
+  const auto at_start = [&](const SharedSystem& system, const std::vector<double>& state) {
+    return start == 0 ? state : exact_flow(system, state, scene.start_time, start);
+  };
+  const OrbitParameterMessage chief = opm_of_transfer(scene, "The chief of a transfer", start,
+                                                      at_start(chief_system, scene.nominal));
+  const std::vector<double> deputy_start =
+      state_sum(scene.nominal, ChiefFrame(scene.nominal, metric_units(scene), scene.transfer->frame)
+                                   .deviation(scene.transfer->start));
+  OrbitParameterMessage deputy = opm_of_transfer(
+      scene,
+      fmt::format("The deputy of a transfer relative to {}, before its first manoeuvre; the "
+                  "manoeuvres are {}, without which it coasts",
+                  scene.ephemeris->object_name, plan.name),
+      start, at_start(deputy_system, deputy_start));
+  deputy.metadata.object_name = scene.ephemeris->deputy_name;
+  deputy.metadata.object_id = scene.ephemeris->deputy_id;
+  deputy.manoeuvres = manoeuvres_of(scene, plan, chief_system);
+  if (plan.burns != nullptr && scene.thruster->exhaust_m_s) {
+    deputy.spacecraft.mass_kg = scene.thruster->mass_kg;
+  }
+  std::vector<ReportFile> files;
+  if (scene.output.has(start_opm_format.name)) {
+    files = {{"chief.opm", opm_text(chief)}, {"deputy.opm", opm_text(deputy)}};
+  }
+  if (scene.output.has(start_opm_xml_format.name)) {
+    files.push_back({"chief.opm.xml", opm_xml(chief)});
+    files.push_back({"deputy.opm.xml", opm_xml(deputy)});
   }
   return files;
 }

@@ -36,4 +36,10 @@ std::string nominal_oem(const PropagationResult& result, const RunResult& run);
 std::vector<ReportFile> transfer_oems(const TransferResult& result,
                                       const RelativeTrajectory& trajectory);
 
+/// `chief.opm` and `deputy.opm`, in KVN, XML or both, as the scene asks: both spacecraft at one
+/// moment, and in the deputy's the manoeuvres of the transfer: the burns of the thruster if there
+/// are any, otherwise the impulses of the optimal plan, otherwise the two of the best time. The
+/// moment is the start, or where a burn begins before it.
+std::vector<ReportFile> transfer_opms(const TransferResult& result);
+
 }  // namespace hamjet::io

@@ -74,6 +74,71 @@ std::optional<OrbitElements> elements_of(const MessageBlock& block,
   return elements;
 }
 
+constexpr std::string_view ignition_keyword = "MAN_EPOCH_IGNITION";
+
+/// The manoeuvre of a block; the standard demands all of its keywords.
+OpmManoeuvre manoeuvre_of(const MessageBlock& block) {
+  OpmManoeuvre manoeuvre;
+  manoeuvre.ignition = block.epoch(ignition_keyword);
+  manoeuvre.line = block.line_of(ignition_keyword);
+  const std::vector<Quantity>& numbers = manoeuvre_quantities();
+  const auto number = [&](std::size_t k) {
+    return block.number(numbers[k].keyword, numbers[k].unit);
+  };
+  manoeuvre.duration_s = number(0);
+  if (manoeuvre.duration_s < 0) {
+    block.fail(numbers[0].keyword, fmt::format("a burn that ends before it begins, got {:.6g} s, "
+                                               "must be 0, for an impulse, or positive",
+                                               manoeuvre.duration_s));
+  }
+  manoeuvre.mass_change_kg = number(1);
+  if (manoeuvre.mass_change_kg > 0) {
+    block.fail(numbers[1].keyword, fmt::format("a mass that grows, got {:.6g} kg, must be 0 or "
+                                               "negative",
+                                               manoeuvre.mass_change_kg));
+  }
+  manoeuvre.reference_frame = block.capitals("MAN_REF_FRAME");
+  if (!is_orbital_frame(manoeuvre.reference_frame) &&
+      !is_inertial_frame(manoeuvre.reference_frame)) {
+    block.fail("MAN_REF_FRAME",
+               fmt::format("axes along which no thrust is flown, got \"{}\", must be RTN, RSW, TNW "
+                           "or a frame whose axes keep their direction",
+                           manoeuvre.reference_frame));
+  }
+  for (std::size_t i = 0; i < 3; ++i) manoeuvre.change_km_s[i] = number(2 + i);
+  return manoeuvre;
+}
+
+/// The blocks of manoeuvres, each of which its ignition begins.
+class ManoeuvreBlocks {
+ public:
+  explicit ManoeuvreBlocks(const MessageLines& lines) : lines_(lines) {
+    keywords_ = keywords_of(manoeuvre_quantities());
+    keywords_.push_back(ignition_keyword);
+    keywords_.push_back("MAN_REF_FRAME");
+  }
+
+  void add(const MessageLine& line) {
+    if (blocks_.empty() || line.keyword == ignition_keyword) {
+      if (!blocks_.empty()) blocks_.back().end_at(line.number);
+      blocks_.emplace_back(lines_);
+    }
+    blocks_.back().add(line, keywords_);
+  }
+
+  std::vector<OpmManoeuvre> manoeuvres() {
+    std::vector<OpmManoeuvre> result;
+    if (!blocks_.empty()) blocks_.back().end_at(lines_.number());
+    for (const MessageBlock& block : blocks_) result.push_back(manoeuvre_of(block));
+    return result;
+  }
+
+ private:
+  const MessageLines& lines_;
+  std::vector<std::string_view> keywords_;
+  std::vector<MessageBlock> blocks_;
+};
+
 }  // namespace
 
 OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
@@ -83,13 +148,12 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
   OrbitParameterMessage message;
   message.version = read_version(lines, "CCSDS_OPM_VERS", {"1.0", "2.0", "3.0"});
   MessageBlock block(lines);
+  ManoeuvreBlocks manoeuvres(lines);
   bool has_user_defined = false;
   for (MessageLine line; lines.next(line);) {
-    if (line.keyword.starts_with("MAN_")) {
-      lines.fail(line.number, line.keyword,
-                 "a manoeuvre, got one behind the state, must be left out: the orbit coasts from "
-                 "EPOCH, so that manoeuvres are not flown, and the motion would not be that of "
-                 "the message");
+    if (line.is_assignment && line.keyword.starts_with("MAN_")) {
+      manoeuvres.add(line);
+      continue;
     }
     // By the standard these keywords belong to an OEM only, but some programs write them.
     if (line.is("META_START") || line.is("META_STOP")) continue;
@@ -120,6 +184,7 @@ OrbitParameterMessage read_opm(const std::string& name, std::string_view text,
     message.spacecraft.*member =
         block.unused_number(quantity.keyword, quantity.unit, message.doubts);
   }
+  message.manoeuvres = manoeuvres.manoeuvres();
   message.elements = elements_of(block, message.doubts);
   message.covariance = covariance_of(block, message);
   if (block.has("GM")) {

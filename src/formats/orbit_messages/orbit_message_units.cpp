@@ -74,12 +74,27 @@ const std::vector<Quantity>& covariance_quantities() {
       ->quantities;
 }
 
+const std::vector<Quantity>& manoeuvre_quantities() {
+  static const std::vector<Quantity> quantities = {{"MAN_DURATION", "s"},
+                                                   {"MAN_DELTA_MASS", "kg"},
+                                                   {"MAN_DV_1", "km/s"},
+                                                   {"MAN_DV_2", "km/s"},
+                                                   {"MAN_DV_3", "km/s"}};
+  return quantities;
+}
+
+bool is_orbital_frame(std::string_view reference_frame) {
+  return reference_frame == "RTN" || reference_frame == "RSW" || reference_frame == "TNW";
+}
+
 std::string_view unit_of_keyword(std::string_view keyword) {
   static const std::map<std::string_view, std::string_view> units = [] {
     // Accelerations have keywords only in XML.
     std::map<std::string_view, std::string_view> result = {
         {"X_DDOT", "km/s**2"}, {"Y_DDOT", "km/s**2"}, {"Z_DDOT", "km/s**2"}};
     for (const Quantity& quantity : state_quantities())
+      result.emplace(quantity.keyword, quantity.unit);
+    for (const Quantity& quantity : manoeuvre_quantities())
       result.emplace(quantity.keyword, quantity.unit);
     for (const UnusedPart& part : unused_parts()) {
       for (const Quantity& quantity : part.quantities) {

@@ -35,6 +35,11 @@ struct SpacecraftQuantity {
 };
 const std::vector<SpacecraftQuantity>& spacecraft_quantities();
 
+/// The numbers of a manoeuvre: its duration, its change of mass, and its three velocity changes.
+const std::vector<Quantity>& manoeuvre_quantities();
+/// Axes of an object's own orbit in which a manoeuvre may be told.
+bool is_orbital_frame(std::string_view reference_frame);
+
 /// The unit of a keyword; empty if it has none.
 std::string_view unit_of_keyword(std::string_view keyword);
 

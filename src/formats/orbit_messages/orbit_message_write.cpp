@@ -101,6 +101,15 @@ std::string opm_text(const OrbitParameterMessage& message) {
     const std::string unit = quantity.unit.empty() ? "" : fmt::format(" [{}]", quantity.unit);
     fmt::format_to(out, "{} = {:.15e}{}\n", quantity.keyword, *number, unit);
   }
+  for (const OpmManoeuvre& one : message.manoeuvres) {
+    fmt::format_to(out, "\nMAN_EPOCH_IGNITION = {}\n", format_epoch(one.ignition));
+    fmt::format_to(out, "MAN_DURATION = {:.15e} [s]\n", one.duration_s);
+    fmt::format_to(out, "MAN_DELTA_MASS = {:.15e} [kg]\n", one.mass_change_kg);
+    fmt::format_to(out, "MAN_REF_FRAME = {}\n", one.reference_frame);
+    for (std::size_t i = 0; i < 3; ++i) {
+      fmt::format_to(out, "MAN_DV_{} = {:.15e} [km/s]\n", i + 1, one.change_km_s[i]);
+    }
+  }
   return fmt::to_string(buffer);
 }
 

@@ -83,6 +83,23 @@ void add_spacecraft(Node parent, const OpmSpacecraft& spacecraft) {
   }
 }
 
+void add_manoeuvres(Node parent, const std::vector<OpmManoeuvre>& manoeuvres) {
+  for (const OpmManoeuvre& one : manoeuvres) {
+    Node block = parent.append_child("maneuverParameters");
+    const auto number = [&](const char* name, double value) {
+      add(block, name, fmt::format("{:.15e}", value)).append_attribute("units") =
+          std::string(unit_of_keyword(name)).c_str();
+    };
+    add(block, "MAN_EPOCH_IGNITION", format_epoch(one.ignition));
+    number("MAN_DURATION", one.duration_s);
+    number("MAN_DELTA_MASS", one.mass_change_kg);
+    add(block, "MAN_REF_FRAME", one.reference_frame);
+    number("MAN_DV_1", one.change_km_s[0]);
+    number("MAN_DV_2", one.change_km_s[1]);
+    number("MAN_DV_3", one.change_km_s[2]);
+  }
+}
+
 std::string printed(const pugi::xml_document& document) {
   std::ostringstream text;
   document.save(text, "  ", pugi::format_indent, pugi::encoding_utf8);
@@ -118,6 +135,7 @@ std::string opm_xml(const OrbitParameterMessage& message) {
   Node data = segment.append_child("data");
   add_state(data, message.state, message.state_comments);
   add_spacecraft(data, message.spacecraft);
+  add_manoeuvres(data, message.manoeuvres);
   return printed(document);
 }
 

@@ -156,6 +156,11 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
   const std::string drift =
       drift_text(motion.drift, motion.points.front().state, motion.scene.deputy->frame);
   if (!drift.empty()) text += drift + " ";
+  if (motion.manoeuvres > 0) {
+    text += fmt::format("{} of the orbit messages {} flown; behind each, polynomials begin anew. ",
+                        counted(static_cast<std::size_t>(motion.manoeuvres), "manoeuvre"),
+                        motion.manoeuvres == 1 ? "is" : "are");
+  }
   text += fmt::format("Polynomials of order {} are never wrong by {}{}", order,
                       error.starts_with("less") ? "as much as " : "more than ",
                       error.starts_with("less") ? length_text(motion.flight_floor_m) : error);
@@ -236,6 +241,9 @@ TableView deputy_motion_table(const DeputyMotion& motion) {
                    "whether the highest order is right to a hundredth of the separation",
                    is_resolved(motion));
   table.add_scalar("flight_floor_m", "m", "errors below this say nothing", motion.flight_floor_m);
+  table.add_scalar("manoeuvres", "",
+                   "the number of manoeuvres of the orbit messages that are flown",
+                   motion.manoeuvres);
   table.add_scalar("exit_code", "", "the exit code of the command", 0);
   TableView view = std::move(table).view(motion.points, {motion.points.size()});
   view.places_of_rows = {{0, "/start"}, {motion.points.size() - 1, "/end"}};

@@ -131,6 +131,10 @@ StudyReport transfer_report(const TransferResult& result,
       report.files.push_back(std::move(file));
     }
   }
+  const bool has_opms = output.has(start_opm_format.name) || output.has(start_opm_xml_format.name);
+  if (has_opms && result.best_point()) {
+    for (ReportFile& file : transfer_opms(result)) report.files.push_back(std::move(file));
+  }
   ChartDrawer drawer(origin.gnuplot);
   report.files.push_back({"report.html", transfer_page(result, trajectory, origin, drawer)});
   report.drawing_problem = drawer.problem();

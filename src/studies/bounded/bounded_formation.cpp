@@ -9,6 +9,7 @@
 
 #include "../../poincare/bounded_family.hpp"
 #include "../checks/flight_checks.hpp"
+#include "../flights/manoeuvred_flight.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -277,6 +278,7 @@ std::string_view name_of(BoundedRule rule) {
 }
 
 BoundedFormation study_bounded(const Scene& scene, const ProgressCallback& progress) {
+  require_coasting(scene);
   require_formation_problem(scene, scene.bounded.has_value(), "bounded");
   require_nodal_section(scene);
   double seconds = 0;

@@ -13,6 +13,7 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
+#include "../flights/manoeuvred_flight.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -201,6 +202,7 @@ EventCondition<double> event_condition(const Scene& scene) {
 }
 
 EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
+  require_coasting(scene);
   require_formation_problem(scene, scene.event.has_value(), "event");
   if (!make_system(scene).is_autonomous()) {
     throw Error(

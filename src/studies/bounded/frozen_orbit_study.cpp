@@ -9,6 +9,7 @@
 #include "../../poincare/frozen_orbit.hpp"
 #include "../../poincare/rotation_normal_form.hpp"
 #include "../checks/flight_checks.hpp"
+#include "../flights/manoeuvred_flight.hpp"
 #include "../formation/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
@@ -187,6 +188,7 @@ std::array<double, 2> FrozenOrbitStudy::multiplier() const {
 }
 
 FrozenOrbitStudy study_frozen_orbit(const Scene& scene, const ProgressCallback& progress) {
+  require_coasting(scene);
   require_formation_problem(scene, true, "nominal");
   FrozenOrbitStudy study;
   study.scene = scene;

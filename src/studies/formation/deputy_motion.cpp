@@ -15,6 +15,7 @@
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
+#include "manoeuvred_motion.hpp"
 #include "single_transfer.hpp"
 
 namespace hamjet {
@@ -36,6 +37,9 @@ double DeputyMotion::largest_error_m(int order) const {
 
 DeputyMotion study_deputy_motion(const Scene& asked, const ProgressCallback& progress) {
   require_formation_problem(asked, asked.deputy.has_value(), "deputy");
+  if (!asked.manoeuvres.empty() || !asked.deputy->manoeuvres.empty()) {
+    return manoeuvred_motion(asked, progress);
+  }
   const Scene scene = with_deputy_parameters(asked);
   if (scene.duration == 0) {
     throw Error(ErrorKind::scene, "deputy: no motion in no time, got a jet.duration of 0");

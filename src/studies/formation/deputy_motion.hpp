@@ -31,8 +31,10 @@ struct DeputyMotion {
   std::vector<DeputyMotionPoint> points;  ///< the first point is the start
   RelativeTrajectory flown;               ///< path at these times and at others between them
   ExtremeSeparations extremes;            ///< of the flight, also between the times
-  std::optional<RelativeDrift> drift;     ///< drift of the deputy at its start
-  double flight_floor_m = 0;              ///< the largest over the times
+  /// Drift of the deputy at its start; absent beside manoeuvres.
+  std::optional<RelativeDrift> drift;
+  int manoeuvres = 0;         ///< of both spacecraft that are flown
+  double flight_floor_m = 0;  ///< the largest over the times
   double propagation_seconds = 0;
   std::vector<SelfCheck> checks;  ///< checks of both flights
 
@@ -40,10 +42,11 @@ struct DeputyMotion {
   double largest_error_m(int order) const;
 };
 
-/// The motion of the scene's deputy over the scene's duration, without velocity changes. It is
-/// flown with the full equations of motion to times that are equal steps of the chief's eccentric
-/// anomaly, some tens per revolution. The jets at the same times are compared with it, which gives
-/// their errors. Throws as study_transfer.
+/// The motion of the scene's deputy over the scene's duration, without velocity changes but those
+/// of the orbit messages of both (see manoeuvred_motion). It is flown with the full equations of
+/// motion to times that are equal steps of the chief's eccentric anomaly, some tens per revolution.
+/// The jets at the same times are compared with it, which gives their errors. Throws as
+/// study_transfer.
 DeputyMotion study_deputy_motion(const Scene& scene, const ProgressCallback& progress = {});
 
 }  // namespace hamjet

@@ -10,6 +10,7 @@
 #include "../../uncertainty/cut_passage.hpp"
 #include "../../uncertainty/encounter_trajectories.hpp"
 #include "../../uncertainty/entry_sampler.hpp"
+#include "../flights/manoeuvred_flight.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "along_track_bend.hpp"
@@ -238,6 +239,7 @@ const UncertainApproach* nearest_approach(const CollisionResult& result) {
 
 CollisionResult study_collision(const Scene& scene, std::size_t threads,
                                 const ProgressCallback& progress) {
+  require_coasting(scene);
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->collision;
   require_formation_problem(scene, is_asked_for, "uncertainty.collision");
   require_one_encounter(scene, "uncertainty.collision");

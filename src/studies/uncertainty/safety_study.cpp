@@ -6,6 +6,7 @@
 #include <array>
 
 #include "../../uncertainty/flown_separations.hpp"
+#include "../flights/manoeuvred_flight.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../stopwatch.hpp"
@@ -82,6 +83,7 @@ const SafetyPair& least_safe_pair(const SafetyResult& result) {
 
 SafetyResult study_safety(const Scene& scene, std::size_t threads,
                           const ProgressCallback& progress) {
+  require_coasting(scene);
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->safety;
   require_formation_problem(scene, is_asked_for, "uncertainty.safety");
   require_one_encounter(scene, "uncertainty.safety");

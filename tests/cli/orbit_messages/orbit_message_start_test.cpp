@@ -84,8 +84,6 @@ TEST_F(OrbitMessages, ADamagedFileIsOneLineAndExitCode5) {
   write("bad.opm", changed(io::standard_opm, "[km/s]", "[m/s]"));
   expect_error({"run", "opm.toml"}, 5,
                {"bad.opm:20: X_DOT: wrong unit, got \"[m/s]\", must be [km/s]"});
-  write("bad.opm", std::string(io::standard_opm) + io::standard_maneuver);
-  expect_error({"check", "opm.toml"}, 5, {"bad.opm:42: MAN_EPOCH_IGNITION: a manoeuvre"});
   write("bad.opm", io::standard_rotating_opm);
   expect_error({"check", "opm.toml"}, 5, {"bad.opm:8: REF_FRAME: a frame that rotates"});
 }

@@ -6,10 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/detail/dynamics/thrust_axes.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 
 namespace hamjet {
+
+/// A velocity change that a spacecraft's orbit message tells: an impulse, or a burn whose direction
+/// stays the same along its axes.
+struct Manoeuvre {
+  double start = 0;   ///< since the scene's start, in canonical units
+  double length = 0;  ///< of the burn; 0 for an impulse
+  ThrustAxes axes = ThrustAxes::inertial;
+  Eigen::Vector3d change = Eigen::Vector3d::Zero();  ///< along these axes, canonical
+  /// The part of the mass that the burn takes at a constant rate; with 0 the acceleration is
+  /// constant.
+  double mass_share = 0;
+
+  double end() const { return start + length; }
+};
 
 /// Table `[deputy]`: the second satellite at the start.
 struct DeputySettings {
@@ -17,6 +32,7 @@ struct DeputySettings {
   RelativeState start;
   std::optional<double> drag_m2_kg = {};       ///< C_D A / m; the chief's if absent
   std::optional<double> radiation_m2_kg = {};  ///< C_R A / m, likewise
+  std::vector<Manoeuvre> manoeuvres = {};      ///< of its orbit message, in order of time
 };
 
 /// A deputy at its arrival, relative to the chief at that time: a state along the axes of the

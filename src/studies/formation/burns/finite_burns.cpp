@@ -52,8 +52,10 @@ class BurnStudy {
   BurnStudy(const Scene& scene, const ComputedProblem& problem)
       : scene_(scene),
         problem_(problem),
-        burning_(burning_system(*problem.system, {scene.thruster->attitude == BurnAttitude::rtn,
-                                                  scene.thruster->exhaust_m_s.has_value()})) {}
+        burning_(burning_system(
+            *problem.system,
+            {scene.thruster->attitude == BurnAttitude::rtn ? ThrustAxes::rtn : ThrustAxes::inertial,
+             scene.thruster->exhaust_m_s.has_value()})) {}
 
   BurnPlan plan(const std::vector<Impulse>& impulses, double duration, bool is_cheapest) const {
     BurnPlan plan;
