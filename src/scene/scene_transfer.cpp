@@ -21,6 +21,8 @@ constexpr std::size_t degrees_of_freedom = 3;
 /// velocity is 1 / sin(2 pi 0.01) = 16 times that of a quarter revolution.
 constexpr double default_revolutions = 0.01;
 
+constexpr int most_feedback_instants = 64;
+
 /// A table that names its frame.
 struct FramedTable {
   TableReader table;
@@ -198,8 +200,9 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
   transfer.read_if_any("thrust", settings.thrust);
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
+  transfer.read_if_any("feedback", settings.feedback);
   if (settings.thrust != TransferThrust::energy_optimal) {
-    for (const std::string_view key : {"thrust_order", "largest_thrust_m_s2"}) {
+    for (const std::string_view key : {"thrust_order", "largest_thrust_m_s2", "feedback"}) {
       if (!transfer.has(key)) continue;
       transfer.fail(key, fmt::format("not used, got {} without a thrust that lasts, must be beside "
                                      "thrust = \"energy-optimal\"",
@@ -207,7 +210,9 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
     }
     return;
   }
-  if (!has_ends) transfer.fail("thrust", "no start and end, must be there with it");
+  if (!has_ends && transfer.has("feedback")) {
+    transfer.fail("feedback", "no start and end, must be there with it");
+  }
   if (settings.times.back() < 0) {
     transfer.fail("thrust",
                   "transfer times before the start, must be after it with "
@@ -250,6 +255,9 @@ const TableDescription& transfer_table() {
          "order of that thrust's polynomials in states and costates"},
         {"largest_thrust_m_s2", form::positive(), absent::other("any"),
          "transfers whose thrust is at some time larger are marked, and not the least"},
+        {"feedback", form::integer(1, most_feedback_instants), absent::other("none"),
+         "also the least such thrust as polynomials of the deputy's state at so many equal parts "
+         "of the way, and a flight by them"},
         {"budget_m_s", form::positive(), absent::other("none is looked for"),
          "the times at which the whole change is no more than this are found"},
         {"largest_impulse_m_s", form::positive(), absent::other("any"),

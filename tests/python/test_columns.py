@@ -35,6 +35,7 @@ STUDIES = {
     "motion": lambda: hamjet.motion(CIRCLES),
     "transfers": lambda: hamjet.transfer(TRANSFER, overrides={
         "transfer.count": 3, "transfer.impulses": "optimal", "transfer.thrust": "energy-optimal",
+        "transfer.feedback": 2,
         "transfer.budget_m_s": 20, "thruster": {"acceleration_m_s2": 0.1}, "transfer.waypoint": [
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
     "assignment": lambda: hamjet.assign(

@@ -102,7 +102,15 @@ inline TransferResult whole_transfer() {
   thrust.exceeds_thrust = true;
   thrust.start_thrust_m_s2 = {0.01, 0.02, 0.03};
   thrust.end_thrust_m_s2 = {0.04, 0.05, -0.06};
-  result.thrust = {2, {thrust}, 0, {{0, {1, 2, 2}}, {5, {2, 3, -6}}}, ""};
+  result.thrust = {2, {thrust}, 0, {{0, {1, 2, 2}}, {5, {2, 3, -6}}}, {}, ""};
+  FeedbackInstant instant;
+  instant.time = 2.5;
+  const SpacePointer space = SeriesSpace::create(6, 1);
+  for (const double x : {4.0, 5.0, -6.0}) {
+    instant.thrust.emplace_back(space, x);
+    instant.thrust.back()[space->linear_index(3)] = x / 8;
+  }
+  result.thrust->feedback = {{instant}, 0.5, 0.25, 0.75, 9.75, ""};
   BurnPlan burns;
   burns.duration = 4;
   burns.impulses_m_s = 7;
@@ -260,6 +268,7 @@ inline std::vector<Walk> transfer_walks() {
             {"refined_velocity_miss_m_s", {"m/s", 2e-6}},
             {"costates", {"", {1, 2, 3, 4, 5, 6}}},
             {"refinement_flights", {"", 3}},
+            {"continuation_steps", {"", 0}},
             {"failure", {"", nullptr}}}},
           {thrust_profile_table(result),
            report,
@@ -267,6 +276,16 @@ inline std::vector<Walk> transfer_walks() {
            {{"time_s", {"s", 5 * sample_unit_s}},
             {"thrust_m_s2", {"m/s^2", {2, 3, -6}}},
             {"magnitude_m_s2", {"m/s^2", 7}}}},
+          {feedback_table(result),
+           report,
+           {4},
+           {{"time_s", {"s", 2.5 * sample_unit_s}},
+            {"powers", {"", {0, 0, 0, 1, 0, 0}}},
+            {"thrust_m_s2", {"m/s^2", {0.5, 0.625, -0.75}}},
+            {"miss_m", {"m", 0.5}},
+            {"velocity_miss_m_s", {"m/s", 0.25}},
+            {"energy_m2_s3", {"m^2/s^3", 0.75}},
+            {"change_m_s", {"m/s", 9.75}}}},
           {burns_table(result),
            report,
            {1, 2},
@@ -321,6 +340,7 @@ inline Walk motion_walk() {
                       {"largest_error_m_by_order", {"m", {0.375, 0.0625}}},
                       {"is_resolved", {"", true}},
                       {"flight_floor_m", {"m", 2e-7}},
+                      {"manoeuvres", {"", 0}},
                       {"exit_code", {"", 0}}})};
 }
 
@@ -339,7 +359,11 @@ inline std::vector<Walk> assignment_walks() {
   const StudyReport report = assignment_report(result);
   ExpectedColumns columns = transfer_columns_expected(point);
   for (auto& [name, column] : columns) column.further.clear();
-  columns.merge(with_frame({{"deputy", {"", 1}},
+  columns.merge(with_frame({{"thrust_energy_m2_s3", {"m^2/s^3", nullptr}},
+                            {"thrust_change_m_s", {"m/s", nullptr}},
+                            {"largest_thrust_m_s2", {"m/s^2", nullptr}},
+                            {"thrust_miss_m", {"m", nullptr}},
+                            {"deputy", {"", 1}},
                             {"slot", {"", 0}},
                             {"common_time_s", {"s", 2 * sample_unit_s}},
                             {"deputies_without_slot", {"", {2}}},
@@ -355,7 +379,8 @@ inline std::vector<Walk> assignment_walks() {
             {"slot", {"", 0}},
             {"time_canonical", {"", 6}},
             {"time_s", {"s", 6 * sample_unit_s}},
-            {"total_change_m_s", {"m/s", 2.25}}}},
+            {"total_change_m_s", {"m/s", 2.25}},
+            {"energy_m2_s3", {"m^2/s^3", nullptr}}}},
           {pairs_table(result),
            report,
            {0},

@@ -72,8 +72,9 @@ class Transfers(Study, table="transfers"):
     The further tables, attributes with columns of their own: ``singular_times``, ``conditions`` of
     all kinds, ``budget_windows``, ``impulses`` of the optimal plan and ``least_by_time``, what
     these cost, ``waypoints``, impulses of the way through them, and ``total_by_time``;
-    ``energy_optimal``, transfers with a thrust that lasts, and ``thrust_profile``, the thrust along
-    the way of the least; ``burns`` of a thruster in place of impulses.
+    ``energy_optimal``, transfers with a thrust that lasts, ``thrust_profile``, the thrust along
+    the way of the least, and ``feedback``, that thrust as polynomials of the deputy's state (powers
+    and coefficients by instant and monomial); ``burns`` of a thruster in place of impulses.
     """
 
     def __repr__(self) -> str:

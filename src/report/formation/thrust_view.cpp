@@ -12,6 +12,7 @@
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
 #include "impulse_view.hpp"
+#include "transfer_json.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -100,6 +101,10 @@ TableView energy_optimal_table(const TransferResult& result) {
   add_by_thrust_order(table, orders, "velocity_miss_m_s", "m/s",
                       "the differences of these flights from the wanted velocity",
                       &EnergyOptimalAnswer::velocity_miss_m_s);
+  table.add("continuation_steps", "",
+            "where flying did not correct the answer of order N: the number of smaller deviations "
+            "through which it was followed; otherwise 0",
+            where_found(&EnergyOptimalTransfer::continuation_steps));
   const auto of_refined = [](auto value) {
     return where_found([value](Thrusted one) { return std::invoke(value, *one.refined); });
   };
@@ -138,6 +143,107 @@ TableView thrust_profile_table(const TransferResult& result) {
   const std::vector<ThrustSample> rows =
       result.thrust ? result.thrust->profile : std::vector<ThrustSample>();
   return std::move(table).view(rows, {rows.size()});
+}
+
+TableView feedback_table(const TransferResult& result) {
+  struct Row {
+    const FeedbackInstant* instant;
+    std::size_t monomial;
+  };
+  const double unit = result.scene.units.time_s;
+  const auto letters = axis_columns(result.scene.transfer->frame);
+  std::vector<std::string> powers, parts;
+  for (const char* const before : {"power_", "power_v"}) {
+    for (const std::string_view axis : letters) powers.push_back(fmt::format("{}{}", before, axis));
+  }
+  for (const std::string_view axis : letters) {
+    parts.push_back(fmt::format("thrust_{}_m_s2", axis));
+  }
+  ResultTable<Row> table("feedback", "/energy_optimal_thrust/feedback", {"instants", "monomials"},
+                         "The thrust of least energy at equal parts of the way as polynomials of "
+                         "the deputy's relative state then.");
+  table.leave_rows_out_of_json();
+  table.add("time_s", "s", "the instant, since the start",
+            [=](const Row& row) { return row.instant->time * unit; });
+  table.add_array("powers", powers, "",
+                  "the powers of position (m) and velocity (m/s) along the frame's axes in this "
+                  "monomial",
+                  [](const Row& row) {
+                    const auto exponents =
+                        row.instant->thrust.front().space().exponents(row.monomial);
+                    return std::vector<int>(exponents.begin(), exponents.end());
+                  });
+  table.add_array("thrust_m_s2", parts, "m/s^2",
+                  "its coefficients in the acceleration along the frame's axes then, per m and m/s",
+                  [](const Row& row) {
+                    std::vector<double> values;
+                    for (const Series<double>& one : row.instant->thrust) {
+                      values.push_back(one[row.monomial]);
+                    }
+                    return values;
+                  });
+  std::vector<Row> rows;
+  std::size_t instants = 0, monomials = 0;
+  if (result.thrust && result.thrust->feedback && result.thrust->feedback->failure.empty()) {
+    const FeedbackLaw& law = *result.thrust->feedback;
+    instants = law.instants.size();
+    monomials = law.instants.front().thrust.front().space().size();
+    for (const FeedbackInstant& instant : law.instants) {
+      for (std::size_t m = 0; m < monomials; ++m) rows.push_back({&instant, m});
+    }
+  }
+  const auto flown = [&](double FeedbackLaw::*member) {
+    return instants > 0 ? std::optional((*result.thrust->feedback).*member) : std::nullopt;
+  };
+  table.add_scalar("miss_m", "m", "the miss of the flight by these polynomials",
+                   flown(&FeedbackLaw::miss_m));
+  table.add_scalar("velocity_miss_m_s", "m/s", "its difference from the wanted velocity",
+                   flown(&FeedbackLaw::velocity_miss_m_s));
+  table.add_scalar("energy_m2_s3", "m^2/s^3", "the integral of |u|^2 / 2 along it",
+                   flown(&FeedbackLaw::energy_m2_s3));
+  table.add_scalar("change_m_s", "m/s", "the integral of |u| along it",
+                   flown(&FeedbackLaw::change_m_s));
+  return std::move(table).view(rows, {instants, monomials});
+}
+
+nlohmann::ordered_json feedback_json(const TransferResult& result) {
+  using Json = nlohmann::ordered_json;
+  const FeedbackLaw& law = *result.thrust->feedback;
+  const double arrival_s = seconds(result, result.thrust->transfers[*result.thrust->least].time);
+  Json json = {{"frame", frame_text(result.scene.transfer->frame)},
+               {"arrival_s", arrival_s},
+               {"flown",
+                {{"miss_m", law.miss_m},
+                 {"velocity_miss_m_s", law.velocity_miss_m_s},
+                 {"energy_m2_s3", law.energy_m2_s3},
+                 {"change_m_s", law.change_m_s}}},
+               {"failure", law.failure.empty() ? Json(nullptr) : Json(law.failure)},
+               {"instants", Json::array()}};
+  if (!law.failure.empty()) {
+    json["flown"] = nullptr;
+    return json;
+  }
+  const SeriesSpace& space = law.instants.front().thrust.front().space();
+  json["powers"] = Json::array();
+  for (std::size_t m = 0; m < space.size(); ++m) {
+    const auto exponents = space.exponents(m);
+    json["powers"].push_back(std::vector<int>(exponents.begin(), exponents.end()));
+  }
+  for (const FeedbackInstant& instant : law.instants) {
+    Json thrust = Json::array();
+    for (const Series<double>& one : instant.thrust) {
+      std::vector<double> values;
+      for (std::size_t m = 0; m < space.size(); ++m) values.push_back(one[m]);
+      thrust.push_back(values);
+    }
+    const double time_s = seconds(result, instant.time);
+    json["instants"].push_back({{"time_s", time_s},
+                                {"time_to_go_s", arrival_s - time_s},
+                                {"position_m", vector_json(instant.state.position_m)},
+                                {"velocity_m_s", vector_json(instant.state.velocity_m_s)},
+                                {"thrust_m_s2", std::move(thrust)}});
+  }
+  return json;
 }
 
 Chart thrust_chart(const TransferResult& result) {
@@ -191,15 +297,30 @@ std::string thrust_verdict(const TransferResult& result) {
       miss_text(least->answers.back().miss_m, result.flight_floor_m));
 }
 
+namespace {
+
+std::string feedback_line(const TransferResult& result) {
+  if (!result.thrust->feedback) return "";
+  const FeedbackLaw& law = *result.thrust->feedback;
+  if (!law.failure.empty()) return fmt::format("  feedback         not found: {}\n", law.failure);
+  return fmt::format(
+      "  feedback         {} by {} polynomials of order {} on the way: misses by {}\n",
+      velocity_text(law.change_m_s), law.instants.size(), result.thrust->order,
+      miss_text(law.miss_m, result.flight_floor_m));
+}
+
+}  // namespace
+
 std::string thrust_lines(const TransferResult& result) {
   if (!result.thrust) return "";
   const EnergyOptimalTransfer* least = least_thrust(result);
   if (least == nullptr) {
     return fmt::format("  lasting thrust   not found: {}\n", thrust_failure(result));
   }
-  return fmt::format("  lasting thrust   {} over {}, at most {:.3g} m/s^2: misses by {}\n",
+  return fmt::format("  lasting thrust   {} over {}, at most {:.3g} m/s^2: misses by {}\n{}",
                      velocity_text(least->change_m_s), time_text(seconds(result, least->time)),
-                     least->largest_m_s2, miss_text(least->refined->miss_m, result.flight_floor_m));
+                     least->largest_m_s2, miss_text(least->refined->miss_m, result.flight_floor_m),
+                     feedback_line(result));
 }
 
 std::string thrust_section_html(const TransferResult& result) {

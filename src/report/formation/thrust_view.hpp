@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "../../store/result_table.hpp"
@@ -17,6 +18,12 @@ TableView energy_optimal_table(const TransferResult& result);
 TableView thrust_profile_table(const TransferResult& result);
 /// A picture of it.
 Chart thrust_chart(const TransferResult& result);
+
+/// The law of feedback of the least, one row an instant and monomial; no rows where none was asked
+/// for or found.
+TableView feedback_table(const TransferResult& result);
+/// `feedback.json`: the same polynomials, with the flight by them.
+nlohmann::ordered_json feedback_json(const TransferResult& result);
 
 /// What the least of them takes, or why there is none; empty where none were asked for.
 std::string thrust_verdict(const TransferResult& result);

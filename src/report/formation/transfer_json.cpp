@@ -2,6 +2,7 @@
 
 #include "../../scene/systems/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "burn_view.hpp"
 #include "drift_view.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
@@ -119,6 +120,9 @@ Json transfer_summary_json(const TransferResult& result) {
   json["energy_optimal_thrust"] =
       result.thrust ? table_json(energy_optimal_table(result)) : Json(nullptr);
   if (result.thrust) json["energy_optimal_thrust"].update(table_json(thrust_profile_table(result)));
+  if (result.thrust && result.thrust->feedback) {
+    json["energy_optimal_thrust"]["feedback"] = table_json(feedback_table(result));
+  }
   json["finite_burns"] = result.burns ? table_json(burns_table(result)) : Json(nullptr);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);

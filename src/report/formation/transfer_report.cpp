@@ -121,6 +121,10 @@ StudyReport transfer_report(const TransferResult& result,
     report.files.push_back({"energy_optimal.csv", table_csv(energy_optimal_table(result))});
   if (result.thrust)
     report.files.push_back({"thrust_profile.csv", table_csv(thrust_profile_table(result))});
+  if (result.thrust && result.thrust->feedback) {
+    report.files.push_back({"feedback.csv", table_csv(feedback_table(result))});
+    report.files.push_back({"feedback.json", json_text(feedback_json(result)) + "\n"});
+  }
   if (result.burns) report.files.push_back({"burns.csv", table_csv(burns_table(result))});
   if (result.validity)
     report.files.push_back({"validity.csv", table_csv(validity_table(*result.validity))});

@@ -4,15 +4,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <utility>
 
-#include "../../algebra/state_sums.hpp"
-#include "../../dynamics/costate_system.hpp"
-#include "../exact_flow.hpp"
 #include "../flights/paced_times.hpp"
 #include "../jets_along_time.hpp"
 #include "formation_problem.hpp"
@@ -21,156 +16,14 @@
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "impulses/impulse_search.hpp"
 #include "single_transfer.hpp"
+#include "thrust_feedback.hpp"
+#include "thrusted_flight.hpp"
 
 namespace hamjet {
 namespace {
 
-constexpr std::size_t states = 6;
-using State = Eigen::Matrix<double, 6, 1>;
-
-/// The problem of an orbit with its costates, which are zero along it.
-ComputedProblem costate_problem(const ComputedProblem& orbit, int order) {
-  ComputedProblem problem = orbit;
-  problem.system = costate_system(*orbit.system);
-  problem.nominal.resize(2 * states, 0.0);
-  problem.degrees_of_freedom.clear();
-  problem.components.clear();
-  for (std::size_t i = 0; i < 2 * states; ++i) {
-    if (i < states) problem.degrees_of_freedom.push_back(i);
-    problem.components.push_back(i);
-  }
-  problem.variables = problem.components;
-  problem.space = SeriesSpace::create(2 * states, order);
-  problem.is_full_jet = true;
-  problem.symmetry = FlowSymmetry::rotation;
-  problem.momentum_exponent = 0;
-  return problem;
-}
-
-/// The flights of a deputy from one relative state to another in one time.
-class ThrustedFlight {
- public:
-  ThrustedFlight(const Scene& scene, const ComputedProblem& problem, double time)
-      : problem_(problem),
-        time_(time),
-        units_(metric_units(scene)),
-        frame_(scene.transfer->frame),
-        chief_system_(system_of_chief(scene, problem)),
-        chief_start_(is_like_chief(scene) ? problem.nominal : scene.nominal) {
-    orbit_end_ = exact_flow(problem.system, problem.nominal, problem.start_time, time);
-    chief_end_ = is_like_chief(scene)
-                     ? orbit_end_
-                     : exact_flow(chief_system_, chief_start_, problem.start_time, time);
-    chief_end_.resize(states);
-    const std::vector<double> orbit(orbit_end_.begin(), orbit_end_.begin() + states);
-    start_ = ChiefFrame(std::span(problem.nominal).first(states), units_, frame_)
-                 .deviation(scene.transfer->start);
-    end_ = state_sum(scene.transfer->end.deviation(chief_end_, units_, frame_),
-                     state_difference(chief_end_, orbit));
-  }
-
-  const std::vector<double>& start() const { return start_; }
-  const std::vector<double>& end() const { return end_; }
-
-  /// The state and costates of the deputy at the start.
-  std::vector<double> deputy(const std::vector<double>& costates) const {
-    std::vector<double> z = problem_.nominal;
-    for (std::size_t i = 0; i < states; ++i) {
-      z[i] += start_[i];
-      z[states + i] = costates[i];
-    }
-    return z;
-  }
-
-  /// Flies with these costates, and writes the misses; returns the flown less the wanted state.
-  State fly(EnergyOptimalAnswer& answer) const {
-    const std::vector<double> flown =
-        exact_flow(problem_.system, deputy(answer.costates), problem_.start_time, time_);
-    State miss;
-    for (std::size_t i = 0; i < states; ++i) {
-      miss[static_cast<Eigen::Index>(i)] = flown[i] - orbit_end_[i] - end_[i];
-    }
-    answer.miss_m = miss.head<3>().norm() * units_.length_m;
-    answer.velocity_miss_m_s = miss.tail<3>().norm() * units_.velocity_m_s();
-    return miss;
-  }
-
-  /// Integrates the thrust along the flight with these costates, in `panels` parts.
-  void measure(EnergyOptimalTransfer& transfer, int panels) const;
-
-  /// The thrust of a flight with these costates at the ends of `intervals` equal parts of it.
-  std::vector<ThrustSample> profile(const std::vector<double>& costates, int intervals) const;
-
- private:
-  Eigen::Vector3d thrust(const std::vector<double>& z) const {
-    return -Eigen::Vector3d(z[states + 3], z[states + 4], z[states + 5]) *
-           (units_.velocity_m_s() / units_.time_s);
-  }
-  Eigen::Vector3d along_frame(const std::vector<double>& chief,
-                              const std::vector<double>& z) const {
-    return ChiefFrame(std::span(chief).first(states), units_, frame_).along_axes(thrust(z));
-  }
-
-  const ComputedProblem& problem_;
-  double time_;
-  MetricUnits units_;
-  RelativeFrame frame_;
-  SharedSystem chief_system_;  ///< with costates, which are zero, if both are alike
-  std::vector<double> chief_start_;
-  std::vector<double> orbit_end_;  ///< of a spacecraft like the deputy, with its costates
-  std::vector<double> chief_end_;
-  std::vector<double> start_;
-  std::vector<double> end_;  ///< from that orbit
-};
-
-void ThrustedFlight::measure(EnergyOptimalTransfer& transfer, int panels) const {
-  using Rule = boost::math::quadrature::gauss<double, 8>;
-  std::vector<double> z = deputy(transfer.refined->costates);
-  transfer.start_thrust_m_s2 = along_frame(problem_.nominal, z);
-  double now = 0;
-  const auto fly_to = [&](double time) {
-    z = exact_flow(problem_.system, z, problem_.start_time + now, time - now);
-    now = time;
-    const double size = thrust(z).norm();
-    transfer.largest_m_s2 = std::max(transfer.largest_m_s2, size);
-    return size;
-  };
-  transfer.largest_m_s2 = transfer.start_thrust_m_s2.norm();
-  const double half = time_ / panels / 2;
-  for (int panel = 0; panel < panels; ++panel) {
-    const double middle = (2 * panel + 1) * half;
-    const auto count = static_cast<int>(Rule::abscissa().size());
-    // The nodes of the rule are told from the middle outwards; a flight meets them in order.
-    for (int k = -count; k < count; ++k) {
-      const auto node = static_cast<std::size_t>(k < 0 ? -k - 1 : k);
-      const double size = fly_to(middle + std::copysign(Rule::abscissa()[node], k + 0.5) * half);
-      const double weight = Rule::weights()[node] * half * units_.time_s;
-      transfer.change_m_s += weight * size;
-      transfer.energy_m2_s3 += weight * size * size / 2;
-    }
-  }
-  fly_to(time_);
-  transfer.end_thrust_m_s2 = along_frame(chief_end_, z);
-}
-
-std::vector<ThrustSample> ThrustedFlight::profile(const std::vector<double>& costates,
-                                                  int intervals) const {
-  std::vector<ThrustSample> samples;
-  std::vector<double> chief = chief_start_;
-  std::vector<double> z = deputy(costates);
-  double now = 0;
-  for (int k = 0; k <= intervals; ++k) {
-    const double time = k == intervals ? time_ : time_ * k / intervals;
-    if (time != now) {
-      const ClockTime from = problem_.start_time + now;
-      chief = exact_flow(chief_system_, chief, from, time - now);
-      z = exact_flow(problem_.system, z, from, time - now);
-      now = time;
-    }
-    samples.push_back({time, along_frame(chief, z)});
-  }
-  return samples;
-}
+constexpr std::size_t states = ThrustedFlight::states;
+using State = ThrustedFlight::State;
 
 /// The answers of all orders for the two states of a flight.
 class EnergyOptimalPolynomials {
@@ -184,6 +37,7 @@ class EnergyOptimalPolynomials {
         jet_values_(jet[0].space_pointer()) {}
 
   double condition() const { return inversion_.condition; }
+  int order() const { return jet_[0].order(); }
 
   EnergyOptimalAnswer answer(const ThrustedFlight& flight, int order, const MetricUnits& units) {
     EnergyOptimalAnswer answer;
@@ -223,44 +77,144 @@ class EnergyOptimalPolynomials {
   MonomialValues jet_values_;
 };
 
-/// Newton's method on the flown misses. A miss in velocity counts as the place that it makes in the
-/// canonical unit of time.
-void refine(EnergyOptimalPolynomials& polynomials, const ThrustedFlight& flight, const Scene& scene,
-            EnergyOptimalTransfer& transfer) {
-  constexpr int most_flights = 12;
-  const double unit_s = metric_units(scene).time_s;
-  EnergyOptimalAnswer answer = transfer.answers.back();
-  for (int& flights = transfer.refinement_flights; flights < most_flights;) {
-    ++flights;
-    const State miss = flight.fly(answer);
-    if (std::max(answer.miss_m, answer.velocity_miss_m_s * unit_s) <=
-        scene.transfer->refined_miss_m) {
-      transfer.refined = std::move(answer);
-      return;
-    }
-    const State step = polynomials.correction(flight, answer, miss);
-    for (std::size_t j = 0; j < states; ++j) {
-      answer.costates[j] -= step[static_cast<Eigen::Index>(j)];
-    }
-  }
-  throw Error(ErrorKind::numerical,
-              fmt::format("the thrust of order {} was not corrected to {:.3g} m in {} flights, the "
-                          "last of which misses by {:.3g} m and {:.3g} m/s",
-                          answer.order, scene.transfer->refined_miss_m, most_flights, answer.miss_m,
-                          answer.velocity_miss_m_s));
+/// A miss in velocity counts as the place that it makes in the canonical unit of time.
+double miss_in_m(const EnergyOptimalAnswer& answer, const Scene& scene) {
+  return std::max(answer.miss_m, answer.velocity_miss_m_s * metric_units(scene).time_s);
 }
+
+/// Newton's method on the flown misses, with the derivatives of the polynomials; empty if the
+/// answer was corrected, otherwise why not.
+std::string refine(EnergyOptimalPolynomials& polynomials, const ThrustedFlight& flight,
+                   const Scene& scene, EnergyOptimalTransfer& transfer) {
+  constexpr int most_flights = 12;
+  EnergyOptimalAnswer answer = transfer.answers.back();
+  if (!answer.failure.empty()) return answer.failure;
+  try {
+    for (int& flights = transfer.refinement_flights; flights < most_flights;) {
+      ++flights;
+      const State miss = flight.fly(answer);
+      if (miss_in_m(answer, scene) <= scene.transfer->refined_miss_m) {
+        transfer.refined = std::move(answer);
+        return "";
+      }
+      const State step = polynomials.correction(flight, answer, miss);
+      for (std::size_t j = 0; j < states; ++j) {
+        answer.costates[j] -= step[static_cast<Eigen::Index>(j)];
+      }
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    return error.what();
+  }
+  return fmt::format(
+      "the thrust of order {} was not corrected to {:.3g} m in {} flights, the last "
+      "of which misses by {:.3g} m and {:.3g} m/s",
+      answer.order, scene.transfer->refined_miss_m, most_flights, answer.miss_m,
+      answer.velocity_miss_m_s);
+}
+
+/// Follows the costates from no deviation, where there is no thrust, to the scene's, all in the
+/// same proportions: at each share of them by Newton's method with derivatives of the flight
+/// itself, from where the last two shares lead.
+class ThrustContinuation {
+ public:
+  ThrustContinuation(const ThrustedFlight& flight, const Scene& scene,
+                     EnergyOptimalTransfer& transfer)
+      : flight_(flight), scene_(scene), transfer_(transfer), last_{0, {}}, before_{0, {}} {
+    last_.costates.assign(states, 0.0);
+    before_ = last_;
+  }
+
+  /// The largest share that was reached, 1 if all went well; the transfer then has its answer.
+  double reach() {
+    constexpr int most_attempts = 80;
+    constexpr double least_step = 1e-3;
+    double step = 0.125;
+    for (int attempts = 0; attempts < most_attempts && step > least_step && last_.share < 1;
+         ++attempts) {
+      const double share = std::min(1.0, last_.share + step);
+      std::optional<Point> next = solved({share, predicted(share)});
+      if (!next) {
+        step /= 2;
+        continue;
+      }
+      before_ = std::exchange(last_, std::move(*next));
+      ++transfer_.continuation_steps;
+      step *= 1.5;
+    }
+    return last_.share;
+  }
+
+ private:
+  struct Point {
+    double share = 0;
+    std::vector<double> costates;
+  };
+
+  /// On the line through the last two points; from the first one, as the linear theory.
+  std::vector<double> predicted(double share) const {
+    std::vector<double> costates = last_.costates;
+    for (std::size_t j = 0; j < states; ++j) {
+      costates[j] += last_.share > 0 ? (share - last_.share) / (last_.share - before_.share) *
+                                           (last_.costates[j] - before_.costates[j])
+                                     : share * transfer_.answers.front().costates[j];
+    }
+    return costates;
+  }
+
+  std::optional<Point> solved(Point point) {
+    constexpr int most_flights = 10;
+    // Between the ends of the way the costates need not be exact.
+    const double most_m = point.share < 1 ? std::max(scene_.transfer->refined_miss_m, 1e-3)
+                                          : scene_.transfer->refined_miss_m;
+    EnergyOptimalAnswer answer;
+    answer.order = transfer_.answers.back().order;
+    double last_miss_m = std::numeric_limits<double>::infinity();
+    try {
+      for (int flights = 0; flights < most_flights; ++flights) {
+        ++transfer_.refinement_flights;
+        const State miss = flight_.missing(point.costates, point.share);
+        flight_.set_misses(answer, miss);
+        const double miss_m = miss_in_m(answer, scene_);
+        if (!(miss_m <= last_miss_m)) return std::nullopt;
+        last_miss_m = miss_m;
+        if (miss_m <= most_m) {
+          if (point.share == 1) {
+            answer.costates = point.costates;
+            answer.energy_m2_s3 = transfer_.answers.back().energy_m2_s3;
+            transfer_.refined = std::move(answer);
+          }
+          return point;
+        }
+        const State step =
+            flight_.commanded(point.costates, point.share).partialPivLu().solve(miss);
+        for (std::size_t j = 0; j < states; ++j) {
+          point.costates[j] -= step[static_cast<Eigen::Index>(j)];
+        }
+      }
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+    }
+    return std::nullopt;
+  }
+
+  const ThrustedFlight& flight_;
+  const Scene& scene_;
+  EnergyOptimalTransfer& transfer_;
+  Point last_;
+  Point before_;
+};
 
 /// Parts of a flight with thrust for its integrals: 8 nodes in each.
 constexpr IntervalCount quadrature_panels = {12, 4, 2000};
 /// Parts of the flight at whose ends its thrust is told.
 constexpr IntervalCount profile_intervals = {72, 48, 2000};
 
-void solve(const Scene& scene, const ComputedProblem& problem, const FlowJet<double>& jet,
-           EnergyOptimalTransfer& transfer) {
+void solve(const Scene& scene, const ComputedProblem& problem,
+           EnergyOptimalPolynomials& polynomials, EnergyOptimalTransfer& transfer) {
   const ThrustedFlight flight(scene, problem, transfer.time);
-  EnergyOptimalPolynomials polynomials(jet);
   transfer.condition = polynomials.condition();
-  for (int order = 1; order <= jet[0].order(); ++order) {
+  for (int order = 1; order <= polynomials.order(); ++order) {
     transfer.answers.push_back(polynomials.answer(flight, order, metric_units(scene)));
     EnergyOptimalAnswer& answer = transfer.answers.back();
     try {
@@ -270,13 +224,30 @@ void solve(const Scene& scene, const ComputedProblem& problem, const FlowJet<dou
       answer.failure = error.what();
     }
   }
-  if (const std::string& failure = transfer.answers.back().failure; !failure.empty()) {
-    throw Error(ErrorKind::numerical, failure);
+  if (const std::string failure = refine(polynomials, flight, scene, transfer); !failure.empty()) {
+    const double share = ThrustContinuation(flight, scene, transfer).reach();
+    if (share < 1) {
+      throw Error(ErrorKind::numerical,
+                  fmt::format("{}; followed from smaller deviations it comes to {:.3g} of these",
+                              failure, share));
+    }
   }
-  refine(polynomials, flight, scene, transfer);
   flight.measure(transfer, interval_count(scene, transfer.time, quadrature_panels));
   const auto& most = scene.transfer->largest_thrust_m_s2;
   transfer.exceeds_thrust = most && transfer.largest_m_s2 > *most;
+}
+
+EnergyOptimalTransfer solved(const Scene& scene, const ComputedProblem& problem,
+                             EnergyOptimalPolynomials& polynomials, double time) {
+  EnergyOptimalTransfer transfer;
+  transfer.time = time;
+  try {
+    solve(scene, problem, polynomials, transfer);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    transfer.failure = error.what();
+  }
+  return transfer;
 }
 
 }  // namespace
@@ -298,7 +269,8 @@ EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const Comput
                EnergyOptimalTransfer& transfer = result.transfers[index];
                transfer.time = times[index];
                try {
-                 solve(scene, problem, jet, transfer);
+                 EnergyOptimalPolynomials polynomials(jet);
+                 transfer = solved(scene, problem, polynomials, times[index]);
                } catch (const Error& error) {
                  if (error.kind() != ErrorKind::numerical) throw;
                  transfer.failure = error.what();
@@ -313,9 +285,14 @@ EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const Comput
   }
   if (result.least) {
     const EnergyOptimalTransfer& least = result.transfers[*result.least];
-    result.profile =
-        ThrustedFlight(scene, problem, least.time)
-            .profile(least.refined->costates, interval_count(scene, least.time, profile_intervals));
+    const ThrustedFlight flight(scene, problem, least.time);
+    result.profile = flight.profile(least.refined->costates,
+                                    interval_count(scene, least.time, profile_intervals));
+    if (scene.transfer->feedback > 0) {
+      if (progress) progress("feedback", 0);
+      result.feedback = thrust_feedback(scene, problem, flight,
+                                        interval_count(scene, least.time, quadrature_panels));
+    }
     return result;
   }
   const auto weakest = std::min_element(
@@ -331,6 +308,32 @@ EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const Comput
                 *scene.transfer->largest_thrust_m_s2, weakest->largest_m_s2)
           : weakest->failure;
   return result;
+}
+
+void visit_energy_optimal(const Scene& scene, const ComputedProblem& orbit,
+                          const std::function<void(std::size_t, EnergyOptimalPairs&)>& visit) {
+  const ComputedProblem problem = costate_problem(orbit, scene.transfer->thrust_order);
+  const std::vector<double>& times = scene.transfer->times;
+  visit_jets(
+      problem, symplectic_integrator(scene), times,
+      [&](std::size_t index, const FlowJet<double>& jet) {
+        std::optional<EnergyOptimalPolynomials> polynomials;
+        try {
+          polynomials.emplace(jet);
+        } catch (const Error& error) {
+          if (error.kind() != ErrorKind::numerical) throw;
+          return;
+        }
+        EnergyOptimalPairs pairs;
+        pairs.energy_m2_s3 = [&](const Scene& pair) {
+          const ThrustedFlight flight(pair, problem, times[index]);
+          return polynomials->answer(flight, polynomials->order(), metric_units(pair)).energy_m2_s3;
+        };
+        pairs.transfer = [&](const Scene& pair) {
+          return solved(pair, problem, *polynomials, times[index]);
+        };
+        visit(index, pairs);
+      });
 }
 
 }  // namespace hamjet

@@ -99,6 +99,7 @@ struct TransferSettings {
   TransferThrust thrust = TransferThrust::impulses;
   int thrust_order = 3;  ///< of the jets in states and costates, twelve variables
   std::optional<double> largest_thrust_m_s2;  ///< largest acceleration that its thruster has
+  int feedback = 0;                  ///< instants at which the law of feedback is told; 0 for none
   std::optional<double> budget_m_s;  ///< if given, spans of time are sought in which a transfer
                                      ///< costs no more than this
   std::optional<double> largest_impulse_m_s;  ///< largest impulse that a transfer may have
