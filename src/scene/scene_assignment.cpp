@@ -68,6 +68,11 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
   assignment.read_if_any("keep_apart_m", settings.keep_apart_m);
+  if (settings.keep_apart_m && scene.transfer->thrust == TransferThrust::energy_optimal) {
+    assignment.fail("keep_apart_m", fmt::format("not looked at on ways of a thrust that lasts, got "
+                                                "{}, must be beside thrust = \"impulses\"",
+                                                assignment.found("keep_apart_m")));
+  }
   settings.deputies = read_states<RelativeState>(
       assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         refuse_manoeuvres(table);

@@ -96,6 +96,46 @@ Scene swarm() {
   return scene;
 }
 
+// With a thrust that lasts the total of the integrals of |u|^2 / 2 is the least: no permutation of
+// the costs is cheaper, and each cost is what a transfer of the pair alone finds.
+TEST(Assignment, OfAThrustThatLastsTheTotalEnergyIsTheLeast) {
+  Scene scene = swarm();
+  scene.transfer->thrust = TransferThrust::energy_optimal;
+  scene.transfer->thrust_order = 2;
+  scene.transfer->times = {2.0, 3.0};
+  scene.assignment->time = AssignmentTime::common;
+  const AssignmentResult result = study_assignment(scene);
+  ASSERT_TRUE(result.failure.empty()) << result.failure;
+  ASSERT_EQ(result.transfers.size(), 4U);
+  ASSERT_TRUE(result.common_time);
+  std::vector<std::vector<double>> energies(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) energies[i].push_back(result.costs[i][j].energy_m2_s3);
+  }
+  std::vector<bool> is_taken(4);
+  const double least = least_of_all(energies, 0, is_taken, 0);
+  double chosen = 0;
+  for (const AssignedTransfer& one : result.transfers) {
+    ASSERT_TRUE(one.thrust && one.thrust->is_found());
+    const double cost = energies[one.deputy][one.slot];
+    chosen += cost;
+    Scene pair = scene;
+    pair.transfer->start = scene.assignment->deputies[one.deputy];
+    pair.transfer->end = scene.assignment->slots[one.slot];
+    pair.transfer->times = {scene.transfer->times[*result.common_time]};
+    pair.assignment.reset();
+    const EnergyOptimalTransfer alone = study_transfer(pair).thrust->transfers.front();
+    ASSERT_TRUE(alone.is_found()) << alone.failure;
+    EXPECT_NEAR(one.thrust->energy_m2_s3, alone.energy_m2_s3, 1e-9 * alone.energy_m2_s3);
+    EXPECT_NEAR(cost, alone.energy_m2_s3, 1e-3 * alone.energy_m2_s3);
+    EXPECT_LT(one.thrust->refined->miss_m, scene.transfer->refined_miss_m);
+  }
+  EXPECT_NEAR(chosen, least, 1e-12 * least);
+  EXPECT_NEAR(result.total_energy_m2_s3, least, 1e-3 * least);
+  EXPECT_TRUE(result.pairs.empty());
+  EXPECT_EQ(exit_code(result), 0);
+}
+
 TEST(Assignment, TotalIsTheLeastOfItsCostsAndIsFlown) {
   for (const AssignmentTime time : {AssignmentTime::per_pair, AssignmentTime::common}) {
     Scene scene = swarm();

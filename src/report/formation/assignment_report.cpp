@@ -2,6 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_text.hpp"
@@ -44,16 +46,24 @@ std::string limit_text(const TransferPoint& point) {
              : "";
 }
 
+std::string limit_of(const AssignmentResult& result, const AssignedTransfer& assigned) {
+  if (!assigned.thrust) return limit_text(assigned.transfer);
+  if (!assigned.thrust->exceeds_thrust) return "";
+  return fmt::format("its thrust comes to {:.3g} m/s^2, above largest_thrust_m_s2 = {:.6g}",
+                     assigned.thrust->largest_m_s2, *result.scene.transfer->largest_thrust_m_s2);
+}
+
 /// Why the exit code is not 0.
 std::string failure_line(const AssignmentResult& result) {
   if (exit_code(result) == 0) return "";
   if (!result.failure.empty()) return result.failure;
   for (const AssignedTransfer& assigned : result.transfers) {
-    const std::string failure = failure_text(assigned.transfer);
+    const std::string failure =
+        assigned.thrust ? assigned.thrust->failure : failure_text(assigned.transfer);
     if (!failure.empty()) {
       return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, failure);
     }
-    if (const std::string limit = limit_text(assigned.transfer); !limit.empty()) {
+    if (const std::string limit = limit_of(result, assigned); !limit.empty()) {
       return fmt::format("deputy {} to slot {}: {}", assigned.deputy, assigned.slot, limit);
     }
   }
@@ -81,6 +91,19 @@ std::string left_line(std::string_view what, const std::vector<std::size_t>& lef
   return left.empty() ? "" : fmt::format("{}: {}\n", what, fmt::join(left, ", "));
 }
 
+bool is_thrusted(const AssignmentResult& result) {
+  return result.scene.transfer->thrust == TransferThrust::energy_optimal;
+}
+
+/// What the assignment makes least where the thrust lasts.
+std::string energy_text(const AssignmentResult& result) {
+  if (!is_thrusted(result)) return "";
+  return fmt::format(
+      ", by a thrust that lasts, of which half the square integrates to the least, "
+      "{:.6g} m^2/s^3",
+      result.total_energy_m2_s3);
+}
+
 std::string terminal_table(const AssignmentResult& result) {
   std::string text =
       fmt::format("{}\n{} to {}, {} time\nframe {}, order {}\n", result.scene.title,
@@ -96,12 +119,21 @@ std::string terminal_table(const AssignmentResult& result) {
   std::string failures;
   for (const AssignedTransfer& assigned : result.transfers) {
     const TransferPoint& point = assigned.transfer;
-    const TransferAnswer* answer = shown_answer(point);
     const std::string name = fmt::format("deputy {} to slot {}", assigned.deputy, assigned.slot);
-    const std::string limit = limit_text(point);
+    const std::string limit = limit_of(result, assigned);
+    if (assigned.thrust && assigned.thrust->is_found()) {
+      const EnergyOptimalTransfer& thrust = *assigned.thrust;
+      rows.push_back({name, velocity_text(thrust.change_m_s),
+                      fmt::format("{:.6g}", thrust.time * unit / axis.seconds),
+                      length_text(thrust.refined->miss_m), limit.empty() ? "ok" : "NOT ALLOWED"});
+      if (!limit.empty()) failures += fmt::format("{}: {}\n", name, limit);
+      continue;
+    }
+    const TransferAnswer* answer = shown_answer(point);
     if (answer == nullptr) {
       rows.push_back({name, "", "", "", "no answer"});
-      failures += fmt::format("{}: {}\n", name, failure_text(point));
+      failures += fmt::format("{}: {}\n", name,
+                              assigned.thrust ? assigned.thrust->failure : failure_text(point));
       continue;
     }
     rows.push_back({name, velocity_text(answer->total_change_m_s()),
@@ -116,8 +148,8 @@ std::string terminal_table(const AssignmentResult& result) {
   }
   if (!result.transfers.empty()) {
     const auto pair = nearest_pair(result);
-    text += fmt::format("\n{}total: {}\n{}{}{}{}{}", aligned_table(rows),
-                        velocity_text(result.total_change_m_s),
+    text += fmt::format("\n{}total: {}{}\n{}{}{}{}{}", aligned_table(rows),
+                        velocity_text(result.total_change_m_s), energy_text(result),
                         pair ? "nearest: " + pair_text(result, *pair) + "\n" : "",
                         left_line("deputies without a slot", deputies_left(result)),
                         left_line("slots without a deputy", slots_left(result)),
@@ -140,9 +172,16 @@ bool uses_kind(const AssignmentResult& result) {
 Json transfers_json(const AssignmentResult& result) {
   Json json = Json::array();
   for (const AssignedTransfer& assigned : result.transfers) {
-    json.push_back({{"deputy", assigned.deputy},
-                    {"slot", assigned.slot},
-                    {"transfer", transfer_point_json(assigned.transfer, result.scene)}});
+    Json transfer = transfer_point_json(assigned.transfer, result.scene);
+    const bool is_found = assigned.thrust && assigned.thrust->is_found();
+    const auto of_thrust = [&](double number) { return is_found ? json_number(number) : Json(); };
+    const EnergyOptimalTransfer thrust = assigned.thrust.value_or(EnergyOptimalTransfer());
+    transfer["thrust_energy_m2_s3"] = of_thrust(thrust.energy_m2_s3);
+    transfer["thrust_change_m_s"] = of_thrust(thrust.change_m_s);
+    transfer["largest_thrust_m_s2"] = of_thrust(thrust.largest_m_s2);
+    transfer["thrust_miss_m"] = of_thrust(is_found ? thrust.refined->miss_m : 0);
+    json.push_back(
+        {{"deputy", assigned.deputy}, {"slot", assigned.slot}, {"transfer", std::move(transfer)}});
   }
   return json;
 }
@@ -160,6 +199,8 @@ std::string summary(const AssignmentResult& result) {
   json["time"] = time_choice(result);
   json["transfers"] = transfers_json(result);
   json["total_change_m_s"] = is_assigned ? json_number(result.total_change_m_s) : Json(nullptr);
+  json["total_energy_m2_s3"] =
+      is_assigned && is_thrusted(result) ? json_number(result.total_energy_m2_s3) : Json(nullptr);
   json["keep_apart_m"] = json_number(result.scene.assignment->keep_apart_m);
   json["nearest_pair"] = nullptr;
   if (const auto pair = nearest_pair(result)) {
@@ -188,9 +229,41 @@ TableView assignment_table(const AssignmentResult& result) {
   table.add("slot", "", "the number of the slot, from 0", &AssignedTransfer::slot).is_in_json =
       false;
   table.add_columns(transfer_columns(scene), &AssignedTransfer::transfer);
-  table.keep_in_csv({"deputy", "slot", "time_canonical", "time_s", "kind", "condition",
-                     "near_singular", "beyond_tolerance", "answer", "start_change_m_s",
-                     "end_change_m_s", "total_change_m_s", "miss_m", "failure"});
+  const auto of_thrust = [](auto value) {
+    return [value](const AssignedTransfer& one) {
+      return one.thrust && one.thrust->is_found() ? std::optional(value(*one.thrust))
+                                                  : std::nullopt;
+    };
+  };
+  using Thrusted = const EnergyOptimalTransfer&;
+  table.add("thrust_energy_m2_s3", "m^2/s^3",
+            "with a thrust that lasts, the integral of |u|^2 / 2 along its flight",
+            of_thrust([](Thrusted one) { return one.energy_m2_s3; }));
+  table.add("thrust_change_m_s", "m/s", "and that of |u|",
+            of_thrust([](Thrusted one) { return one.change_m_s; }));
+  table.add("largest_thrust_m_s2", "m/s^2", "the largest |u| of that flight",
+            of_thrust([](Thrusted one) { return one.largest_m_s2; }));
+  table.add("thrust_miss_m", "m", "the miss of that flight",
+            of_thrust([](Thrusted one) { return one.refined->miss_m; }));
+  std::set<std::string> in_csv = {"deputy",         "slot",
+                                  "time_canonical", "time_s",
+                                  "kind",           "condition",
+                                  "near_singular",  "beyond_tolerance",
+                                  "answer",         "start_change_m_s",
+                                  "end_change_m_s", "total_change_m_s",
+                                  "miss_m",         "failure"};
+  if (is_thrusted(result)) {
+    in_csv = {"deputy",
+              "slot",
+              "time_canonical",
+              "time_s",
+              "thrust_energy_m2_s3",
+              "thrust_change_m_s",
+              "largest_thrust_m_s2",
+              "thrust_miss_m",
+              "failure"};
+  }
+  table.keep_in_csv(in_csv);
   add_frame(table, scene.transfer->frame, result.coordinates);
   const auto& common = result.common_time;
   table.add_scalar(
@@ -232,9 +305,13 @@ TableView costs_table(const AssignmentResult& result) {
                [&](const Row& row) { return told_time(scene, times[*row.cost.time]); });
   table.add_if(has_time, "time_s", "s", "the duration of the transfer",
                [&](const Row& row) { return times[*row.cost.time] * scene.units.time_s; });
-  table.add_if(has_time, "total_change_m_s", "m/s",
-               "the sum of the magnitudes of both velocity changes",
+  const bool is_energy = is_thrusted(result);
+  table.add_if([=](const Row& row) { return row.cost.time && !is_energy; }, "total_change_m_s",
+               "m/s", "the sum of the magnitudes of both velocity changes",
                [](const Row& row) { return row.cost.total_change_m_s; });
+  table.add_if([=](const Row& row) { return row.cost.time && is_energy; }, "energy_m2_s3",
+               "m^2/s^3", "with a thrust that lasts, the integral of |u|^2 / 2 by the polynomials",
+               [](const Row& row) { return row.cost.energy_m2_s3; });
   std::vector<Row> rows;
   for (std::size_t i = 0; i < result.costs.size(); ++i) {
     for (std::size_t j = 0; j < result.costs[i].size(); ++j) {

@@ -8,6 +8,7 @@
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
+#include "energy_optimal.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "least_assignment.hpp"
@@ -42,6 +43,7 @@ class AssignmentStudy {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
     result_.coordinates = points_.coordinates();
+    if (is_thrusted()) return run_thrusted();
     const std::vector<double>& times = scene_.transfer->times;
     const auto statistics =
         visit_jets(points_.jet_problem(), integrator, times,
@@ -69,6 +71,72 @@ class AssignmentStudy {
   }
 
  private:
+  bool is_thrusted() const { return scene_.transfer->thrust == TransferThrust::energy_optimal; }
+
+  Scene scene_of_pair(std::size_t deputy, std::size_t slot) const {
+    Scene pair = scene_;
+    pair.transfer->start = settings_.deputies[deputy];
+    pair.transfer->end = settings_.slots[slot];
+    return pair;
+  }
+
+  /// With a thrust that lasts: energies of all pairs by evaluation, then the chosen transfers by
+  /// flying.
+  AssignmentResult run_thrusted() {
+    const std::vector<double>& times = scene_.transfer->times;
+    const auto told = [&](const char* stage, std::size_t index) {
+      if (progress_) {
+        progress_(stage, static_cast<double>(index) / static_cast<double>(times.size()));
+      }
+    };
+    costs_.assign(times.size(), std::vector<std::vector<double>>(
+                                    settings_.deputies.size(),
+                                    std::vector<double>(settings_.slots.size(), no_cost)));
+    {
+      const Stopwatch watch(seconds_.solution);
+      visit_energy_optimal(scene_, points_.problem(), [&](std::size_t index, auto& pairs) {
+        told("costs", index);
+        for (std::size_t i = 0; i < settings_.deputies.size(); ++i) {
+          for (std::size_t j = 0; j < settings_.slots.size(); ++j) {
+            costs_[index][i][j] = energy_or_none(pairs, scene_of_pair(i, j));
+          }
+        }
+      });
+    }
+    result_.checks = flight_checks(scene_, flights_of(scene_, times.back(), false));
+    choose();
+    if (!result_.failure.empty()) return std::move(result_);
+    const Stopwatch watch(seconds_.proof);
+    visit_energy_optimal(scene_, points_.problem(), [&](std::size_t index, auto& pairs) {
+      told("proofs", index);
+      for (AssignedTransfer& one : result_.transfers) {
+        if (result_.costs[one.deputy][one.slot].time != index) continue;
+        one.thrust = pairs.transfer(scene_of_pair(one.deputy, one.slot));
+        one.transfer.time = times[index];
+        one.transfer.failure = one.thrust->failure;
+      }
+    });
+    for (const AssignedTransfer& one : result_.transfers) {
+      if (!one.thrust || !one.thrust->is_found()) continue;
+      result_.total_change_m_s += one.thrust->change_m_s;
+      result_.total_energy_m2_s3 += one.thrust->energy_m2_s3;
+    }
+    result_.study_seconds = seconds_.study();
+    result_.proof_seconds = seconds_.proof;
+    return std::move(result_);
+  }
+
+  static double energy_or_none(const EnergyOptimalPairs& pairs, const Scene& pair) {
+    try {
+      const double energy = pairs.energy_m2_s3(pair);
+      // Beyond their reach polynomials may fall below what no thrust can.
+      return energy >= 0 ? energy : no_cost;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical) throw;
+      return no_cost;
+    }
+  }
+
   /// Velocity changes of all pairs at one time; infinite if there is no answer.
   void find_costs(std::size_t index, const FlowJet<double>& jet) {
     const std::vector<double>& times = scene_.transfer->times;
@@ -158,20 +226,25 @@ class AssignmentStudy {
           const double cost = costs_[t][i][j];
           if (!std::isfinite(cost)) continue;
           AssignmentCost& entry = best[i][j];
-          if (!entry.time || cost < entry.total_change_m_s) entry = {t, cost};
+          double& least = is_thrusted() ? entry.energy_m2_s3 : entry.total_change_m_s;
+          if (entry.time && !(cost < least)) continue;
+          entry.time = t;
+          least = cost;
         }
       }
     }
     return best;
   }
 
-  static std::vector<std::vector<double>> totals(
-      const std::vector<std::vector<AssignmentCost>>& costs) {
+  std::vector<std::vector<double>> totals(
+      const std::vector<std::vector<AssignmentCost>>& costs) const {
     std::vector<std::vector<double>> result;
     for (const auto& row : costs) {
       result.emplace_back();
       for (const AssignmentCost& entry : row) {
-        result.back().push_back(entry.time ? entry.total_change_m_s : no_cost);
+        result.back().push_back(!entry.time     ? no_cost
+                                : is_thrusted() ? entry.energy_m2_s3
+                                                : entry.total_change_m_s);
       }
     }
     return result;
@@ -235,6 +308,11 @@ int exit_code(const AssignmentResult& result) {
   bool is_forbidden = false;
   for (const AssignedTransfer& assigned : result.transfers) {
     const TransferPoint& transfer = assigned.transfer;
+    if (assigned.thrust) {
+      if (!assigned.thrust->is_found()) return static_cast<int>(ErrorKind::numerical);
+      is_forbidden = is_forbidden || assigned.thrust->exceeds_thrust;
+      continue;
+    }
     if (!transfer.has_answer()) return static_cast<int>(ErrorKind::numerical);
     is_forbidden = is_forbidden || !transfer.is_allowed();
     has_fault =
