@@ -44,8 +44,8 @@ class FlowError {
 
   bool is_known_ = false;
   double of_chief_ = 0;
-  std::vector<PositionRows> shown_;    ///< of a deviation
-  std::optional<PositionRows> bound_;  ///< of the magnitudes of a deviation
+  std::vector<PositionRows> shown_;    ///< times a deviation: the error of its end
+  std::optional<PositionRows> bound_;  ///< times a deviation's magnitudes: a bound on it
 };
 
 /// A bound on the error of a stored chief's final position, from the error of degree 0 that the

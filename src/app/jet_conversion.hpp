@@ -14,8 +14,8 @@ struct ConvertedJet {
   io::StoredJet stored;
   CoordinatesAtEnds from;  ///< coordinates of the given jet
   /// By how much the jet differs from the given one, degree by degree, once it is brought back: the
-  /// largest difference relative to the largest coefficient of the degree. Empty of a given flow
-  /// box, for which no gravity field need be known.
+  /// largest difference relative to the largest coefficient of the degree. Empty if the given jet
+  /// is a flow box, because its gravity field need not be known.
   std::vector<double> there_and_back;
   std::vector<SymplecticityDefect> symplecticity;  ///< in the new coordinates, which are canonical
 };

@@ -55,7 +55,7 @@ class NumberTableReader {
   std::vector<std::string_view> columns_;
   Source source_;
   std::vector<char> bytes_;  ///< bytes that were read from the source
-  std::string_view rest_;    ///< the part of these that is not yet used
+  std::string_view rest_;    ///< the part of `bytes_` that is not yet used
   std::string_view line_;    ///< the current line
   std::size_t line_number_ = 0;
   std::size_t rows_ = 0;             ///< number of rows handed out

@@ -71,7 +71,7 @@ std::vector<KeywordTable> orbit_tables() {
   return tables;
 }
 
-/// (keyword, its table or "" for the top, what it is) of all keywords.
+/// All keywords: the name of each, its table ("" for the top of the scene), and what it means.
 std::vector<std::tuple<std::string, std::string, std::string>> orbit_keys() {
   std::vector<std::tuple<std::string, std::string, std::string>> keys;
   for (const KeywordTable& table : orbit_tables()) {

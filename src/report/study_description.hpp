@@ -44,7 +44,8 @@ struct StudyDescription {
   DoneStudy (*study)(const Scene& scene, const StudyWork& work) = nullptr;
   /// The tables of a result without rows, as the page of columns has them.
   std::vector<TableView> (*declared)() = nullptr;
-  /// Whether deputies may leave flow boxes for orbits that are not bound, of which users are told.
+  /// Whether deputies may leave flow boxes for orbits that are not bound. If so, users are told of
+  /// it.
   bool notes_escape = false;
   /// What the table lacks for this study though it is there, as `key: problem`; null: nothing.
   std::string (*lack)(const Scene& scene) = nullptr;

@@ -37,8 +37,8 @@ void require_states(const Scene& scene, std::vector<std::vector<double>>& states
   }
 }
 
-/// The problem with the degrees of freedom that any of the states needs; as nominal it has the
-/// largest numbers of all states.
+/// The problem with all degrees of freedom that at least one of the states needs. Each number of
+/// its nominal is the largest magnitude that this number has in any of the states.
 ComputedProblem problem_of(const Scene& scene, const std::vector<std::vector<double>>& states) {
   Scene of_all = scene;
   std::fill(of_all.nominal.begin(), of_all.nominal.end(), 0);

@@ -53,11 +53,11 @@ class KeyText {
       }
     }
   }
-  /// It follows from the other settings and the nominal.
+  /// The sunlight is not written, because it follows from the other settings and the nominal.
   void write(const std::shared_ptr<const Sunlight>&) {}
-  /// Heights and densities beside it stand for it.
+  /// The profile is not written, because the heights and densities beside it stand for it.
   void write(const std::shared_ptr<const DensityProfile>&) {}
-  /// The checksum beside it stands for it.
+  /// The table of the orientation is not written, because the checksum beside it stands for it.
   void write(const std::shared_ptr<const EarthOrientation>&) {}
   template <class Value>
   void write(const std::optional<Value>& value) {

@@ -53,7 +53,7 @@ TEST(EarthAxes, ExampleOfVallado) {
 }
 
 TEST(EarthAxes, FrameBias) {
-  // In milliarcseconds: the pole by (-16.617, -6.819) and the equinox by -14.6.
+  // The bias moves the pole by (-16.617, -6.819) and the equinox by -14.6 milliarcseconds.
   const Eigen::Matrix3d bias = axes_change(gcrf, eme2000, instant("2023-05-16T20:00:00")).rotation;
   constexpr double mas = 4.84813681109536e-9;
   EXPECT_NEAR(bias(2, 0), -16.617 * mas, 3e-12);

@@ -1,4 +1,4 @@
-"""What is said of a scene in the end: right, marked by the program itself, or wrong."""
+"""The judgement of a scene: right, marked as doubtful by the program itself, or wrong."""
 import math
 
 import numpy as np

@@ -220,8 +220,8 @@ TEST(FieldsInLists, HaveLanesOfTheirOwn) {
   }
 }
 
-// All forces share the monomials of the deviations, in three variables 6 + 10 below degree 4,
-// whatever the number of bodies.
+// All forces share the monomials of the deviations, so that their number does not depend on that of
+// the bodies: in three variables there are 6 + 10 of the degrees 2 and 3, which are below 4.
 TEST(FieldsInLists, ShareTheirProducts) {
   const auto products = [](const OperationList& list, int jet_order) {
     const OperationList expanded = expand_fields(list, jet_order);

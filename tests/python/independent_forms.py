@@ -127,7 +127,7 @@ class Chief:
                         mean_of_true(e, theta - perigee)).state(self.mu)
 
     def coordinates(self, form: str, r: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Six numbers of a form that tell the deputy's state."""
+        """The six numbers that describe the deputy's state in this form."""
         if form == "inertial":
             return np.concatenate([r - self.r, v - self.v])
         if form.startswith("RTN"):

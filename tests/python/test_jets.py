@@ -336,7 +336,8 @@ def dated(epoch, **changes):
 def test_jets_with_dates_follow_each_other_in_time(jet):
     first = dated("2026-03-01T00:00:00")
     back = first.inverse()
-    # The flow back starts when the flow ends, and is back when that started.
+    # The flow back starts at the time at which the flow ends, and ends at the time at which it
+    # starts.
     assert (back @ first).linear_part.shape == (6, 6)
     assert (first @ back).duration_canonical == 0
     end = np.datetime64("2026-03-01T00:00:00", "ns") + np.timedelta64(

@@ -1,4 +1,4 @@
-"""Many orbits side by side, against runs of their own and the period of Kepler's orbits."""
+"""Compares many orbits side by side with runs of each alone and with Kepler's period."""
 
 import numpy as np
 import pytest

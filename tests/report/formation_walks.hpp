@@ -33,7 +33,7 @@ inline ExpectedColumns with_frame(ExpectedColumns columns) {
 
 inline Json json_of(const Eigen::Vector3d& vector) { return {vector[0], vector[1], vector[2]}; }
 
-inline constexpr double sample_unit_s = 927.6;  ///< of time, of all samples
+inline constexpr double sample_unit_s = 927.6;  ///< the unit of time in all samples
 
 inline Walk validity_walk() {
   ValidityResult result = sample_validity();

@@ -115,10 +115,10 @@ TEST_P(IntegratorTolerance, TwoForm) {
   expect_to_follow(errors);
 }
 
-// Expected: so does the energy. It is constant along the flow, so that the errors of the steps add
-// up and are not carried on: n steps, in each of them a root mean square of at most the tolerance
-// (1 + |z|) over N coefficients and so sqrt(N) times as much in one (the pair: in every one), times
-// the sum of |dH/dz|.
+// Expected: the error of the energy falls with the tolerance too. The energy is constant along the
+// flow, so that the errors of the steps add up and are not carried on: n steps, in each of them a
+// root mean square of at most the tolerance (1 + |z|) over N coefficients and so sqrt(N) times as
+// much in one (the pair: in every one), times the sum of |dH/dz|.
 TEST_P(IntegratorTolerance, Energy) {
   std::vector<double> errors;
   for (const double tolerance : tolerances) {
@@ -133,8 +133,8 @@ TEST_P(IntegratorTolerance, Energy) {
   expect_to_follow(errors);
 }
 
-// Expected: so does the distance from the start after the way there and back, which would be at
-// round-off if the steps were retraced.
+// Expected: the distance from the start after the way there and back falls with the tolerance too.
+// If the steps were retraced, it would be at round-off.
 TEST_P(IntegratorTolerance, TimeReversibility) {
   std::vector<double> errors;
   for (const double tolerance : tolerances) {

@@ -89,7 +89,8 @@ TEST(SingularTimes, AllFourKindsOnThePapersOrbit) {
   }
 }
 
-// Expected: as above. Between two steps of Gauss's method with 8 stages lie two of the nine, twice.
+// Expected: the same reference times as above. Twice, two of the nine times lie between two
+// neighbouring steps of Gauss's method with 8 stages.
 TEST(SingularTimes, TheFigureShowsThoseOfTheFlowWhateverTheStep) {
   const auto& references = test::reference_cases()["conjugate_times_seed"];
   std::vector<double> expected;
@@ -260,9 +261,9 @@ TEST(LinearFlow, BetweenCloseCheckpointsIsTheFlowToRounding) {
         return LinearFlow::StateTransition(straight.checkpoint(straight.times().size() - 1));
       };
       const LinearFlow::StateTransition expected = direct(problem);
-      // A product of a thousand matrices rounds to 1e-12. What a step's local error, in the position
-      // at the start, does to the flow is allowed for: near the pericentre its second derivatives
-      // are large.
+      // A product of a thousand matrices rounds to 1e-12. What a step's local error, in the
+      // position at the start, does to the flow is allowed for: near the pericentre its second
+      // derivatives are large.
       ComputedProblem moved = problem;
       moved.nominal[0] *= 1 + 1e-14;
       const double allowance = (direct(moved) - expected).norm() + 1e-12 * expected.norm();

@@ -84,7 +84,8 @@ class LaneStages {
 
   /// Solves degree 0 of the orbits that `wanted` flags, from the slopes in slopes(); `state(k)` is
   /// component k of the state. Returns flags of the orbits that converged; adds to `evaluations`
-  /// how many evaluations each took. Slopes and gradients then belong to the places.
+  /// how many evaluations each took. After that slopes() and the gradients are those at the places
+  /// that were found.
   template <class State>
   [[gnu::flatten]] Orbits solve(const State& state, const Orbits& wanted, EachOrbit& evaluations) {
     const std::size_t s = stages();

@@ -8,8 +8,9 @@
 
 namespace hamjet {
 
-/// Leaves out of a problem the symmetries that it asks to leave out (FlowProblem::symmetry), as far
-/// as it has them, and puts them back: first the rotation, then the shift in time of the rest.
+/// Takes symmetries out of a problem and puts them back: those that FlowProblem::symmetry asks for,
+/// as far as the problem has them. The rotation is taken out first, then the shift in time of what
+/// is left.
 template <class Real>
 class SymmetryReduction {
  public:

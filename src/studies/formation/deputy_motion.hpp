@@ -18,8 +18,8 @@ struct DeputyMotionPoint {
   RelativeState state;  ///< flown state
   /// Distance of the polynomials of orders 1..N from the flown position.
   std::vector<double> errors_m;
-  /// Rounding of the flights up to here, which continue from time to time; errors below it mean
-  /// nothing.
+  /// Rounding of the flights up to this time. Each flight starts where the one to the time before
+  /// ended. Errors below this floor mean nothing.
   double flight_floor_m = 0;
 };
 

@@ -6,11 +6,12 @@
 #include "../../algebra/singular_values.hpp"
 #include "periodic_orbit.hpp"
 
-// The multipliers of a periodic orbit. The pair 1 of the flow's direction and the energy belongs to
-// a Jordan block, whose eigenvalues lose half of the digits: it is divided out first, and is left
-// in a matrix P of the section across the flow on the energy's surface. P is symplectic with the
-// form that the surface inherits, so that its inverse is known without inversion, and (P + P^-1)/2
-// has the stability indices, each twice and without Jordan blocks even where two multipliers meet.
+// The multipliers of a periodic orbit. Two of them are 1, one of the flow's direction and one of
+// the energy. They belong to a Jordan block, whose eigenvalues lose half of the digits. This pair
+// is therefore divided out first, which leaves a matrix P: that of the section across the flow on
+// the energy's surface. P is symplectic with the form that the surface inherits, so that its
+// inverse is known without inversion, and (P + P^-1)/2 has the stability indices, each twice and
+// without Jordan blocks even where two multipliers meet.
 
 namespace hamjet {
 namespace {

@@ -308,7 +308,8 @@ TEST(RadiationStudies, BackwardsThereIsTheSameLight) {
   EXPECT_LT(apart(again, back.nominal), 1e-11);
   const auto& edges = back.system.earth->sunlight->edges();
   EXPECT_GT(std::count_if(edges.begin(), edges.end(), [](double t) { return t < 0; }), 8);
-  // Both scenes know a quarter of a day beyond their spans, where their light is the same.
+  // Both scenes compute the light for a quarter of a day beyond their spans too, and it is the same
+  // there.
   for (const double t : {0.5, 1.5, 3.0, -2.5}) {
     double one = 0, other = 0;
     there.system.earth->sunlight->expand(t, 0, &one);

@@ -31,7 +31,8 @@ const BurnPlan* FiniteBurns::cheapest_impulses() const {
 
 namespace {
 
-/// Points whose answers are proved and allowed, evenly spread, with the least.
+/// The points to burn at: some of those whose answers are proved and allowed, evenly spread, and
+/// always the one with the least velocity change.
 std::vector<std::size_t> points_to_burn(const TransferResult& result, std::size_t best) {
   constexpr std::size_t most = 48;
   std::vector<std::size_t> all;

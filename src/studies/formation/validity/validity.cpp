@@ -59,8 +59,8 @@ class ValidityStudy {
   }
 
  private:
-  /// Makes deviations of separation 1: on the surface of the ellipsoid in position, and on that of
-  /// the same ellipsoid in velocity.
+  /// Makes deviations of separation 1. Their positions lie on the surface of the ellipsoid, and
+  /// their velocities on that of the same ellipsoid in velocity.
   void make_samples() {
     axes_ = ellipsoid_axes(problem_.nominal, settings_.frame, settings_.semi_axes,
                            momentum_per_length(scene_), metric_units(scene_).velocities);
