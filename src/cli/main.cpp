@@ -202,7 +202,7 @@ int dispatch(int argc, char** argv) {
                       "directory with the results of `hamjet run`, or a file .h5 of them: take the "
                       "jet stored there instead of computing; its duration is the transfer time")
           ->type_name("FILE");
-  transfer.add_option("--run", stored.run, "whose jet: the label of the integrator")
+  transfer.add_option("--run", stored.run, "label of the integrator whose jet is taken")
       ->needs(jet)
       ->type_name("LABEL");
   constexpr const char* all_coordinates = "all";
@@ -212,8 +212,8 @@ int dispatch(int argc, char** argv) {
   coordinates_names.emplace_back(all_coordinates);
   app.get_subcommand("validity")
       ->add_option("--coordinates", coordinates,
-                   "of the polynomials at both ends, in place of jet.coordinates; all: a table and "
-                   "a plot of the reach in each")
+                   "coordinates of the polynomials at both ends, in place of jet.coordinates; all: "
+                   "a table and a plot of the reach in each of them")
       ->check(CLI::IsMember(coordinates_names));
 
   std::optional<std::string> suite;

@@ -40,7 +40,7 @@ void check_options(const RunOptions& run, const SweepOptions& options) {
   }
   if (options.merge && (options.shard || options.resume || options.threads)) {
     refuse(
-        "sweep --merge: makes the table of what is there; leave out --shard, --resume "
+        "sweep --merge: makes the table of the finished items; leave out --shard, --resume "
         "and --threads");
   }
   if (run.json && options.shard) {
@@ -87,7 +87,9 @@ int run_items(const RunOptions& run, const SweepOptions& options, const io::Swee
     shard = slurm_shard([](const char* name) { return std::getenv(name); });
   }
   if (run.json && shard) {
-    refuse("sweep --json: prints the summary of the table, and a task of Slurm makes none");
+    refuse(
+        "sweep --json: prints the summary of the table, but a task of a Slurm array makes no "
+        "table");
   }
   const fs::path path = output_path(run, study.name);
   const io::SweepDirectory directory(path, study);

@@ -183,7 +183,8 @@ std::vector<Expression> time_values(const std::shared_ptr<const TimeFunction>& f
     return values;
   }
   if (!t.recorder()->is_time(t.value())) {
-    throw Error(ErrorKind::usage, "expression: a function of the time takes the time itself");
+    throw Error(ErrorKind::usage,
+                "expression: the argument of a function of the time must be the time itself");
   }
   for (std::size_t c = 0; c < function->components(); ++c) {
     values.push_back(t.recorder()->time_function(function, c, t.value()));

@@ -88,7 +88,7 @@ std::string lack_of_transfer(const Scene& scene) {
 
 constexpr StudyDescription descriptions[] = {
     {.command = "motion",
-     .purpose = "where the deputy goes relative to its chief, and by how much it is wrong",
+     .purpose = "where the deputy goes relative to its chief, and how wrong this is",
      .files = "report.html, motion.csv and summary.json",
      .example = "where the second satellite goes; a report",
      .table = "deputy",

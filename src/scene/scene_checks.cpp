@@ -33,7 +33,7 @@ constexpr std::string_view subjects[self_check_count] = {
     "Poisson brackets of every degree, of symplectic methods",
     "inverted maps composed with the map",
     "the nominal's smallest distance from the centre; the limit needs `system.radius_km`",
-    "the error of every degree, from independent runs along directions"};
+    "the error of every degree, estimated by independent runs along a few directions"};
 
 }  // namespace
 

@@ -37,17 +37,17 @@ void require_quantity(const TableReader& table, std::string_view key, const std:
 void require_autonomous(const TableReader& periodic, const Scene& scene) {
   if (scene.system.model == SystemModel::earth) {
     periodic.fail("",
-                  "of forces that depend on the time, got the model earth, must be a system that "
+                  "the forces depend on the time, got the model earth, must be a system that "
                   "is the same at all times: zonal-gravity, kepler or one of the scene's own");
   }
   if (scene.system.own_text && !scene.system.own_text->is_hamiltonian()) {
     periodic.fail("",
-                  "of a vector field, got system.vector_field, must be a system with a "
+                  "the system is a vector field, got system.vector_field, must be a system with a "
                   "hamiltonian, whose energy the orbit keeps");
   }
   if (scene.own_system && !scene.own_system->is_autonomous()) {
     periodic.fail("",
-                  "of a Hamiltonian that depends on the time, got t in system.hamiltonian, must be "
+                  "the Hamiltonian depends on the time, got t in system.hamiltonian, must be "
                   "without t: an orbit closes whenever it starts");
   }
   if (scene.precision == Precision::extended) {

@@ -232,10 +232,11 @@ void refuse_other_frames(const TableReader& table) {
     if (!nearest(lower_case(given), {name_of(form)})) continue;
     std::vector<std::string_view> keys;
     for (const DeputyComponent& component : components_of(form)) keys.push_back(component.name);
-    table.fail("frame", fmt::format("a form and no frame, got {}, must be \"RTN\", \"inertial\" or "
-                                    "left out: a deputy in the form {} has, where it starts, the "
-                                    "keys {} in place of position_m and velocity_m_s",
-                                    in_quotes(given), name_of(form), listed(keys)));
+    table.fail("frame",
+               fmt::format("the name of a form, not of a frame, got {}, must be \"RTN\", "
+                           "\"inertial\" or left out: the start of a deputy in the form {} is "
+                           "given by the keys {} in place of position_m and velocity_m_s",
+                           in_quotes(given), name_of(form), listed(keys)));
   }
 }
 

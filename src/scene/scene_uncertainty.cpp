@@ -101,9 +101,9 @@ const TableDescription& burn_table() {
            {{"velocity_change_m_s", form::array(form::number(), 3), absent::refused(),
              "velocity change of the burn that ends at the start; the start is the state after it"},
             {"magnitude", form::between(0, 1), absent::other("0"),
-             "standard deviation of its size, as a share of it"},
+             "standard deviation of the burn's size, as a share of the size"},
             {"direction_deg", form::between(0, 90), absent::other("0"),
-             "standard deviation about each of the two axes across it"}}}),
+             "standard deviation of the burn's direction about each of the two axes across it"}}}),
       "Execution errors, after Gates, of the deputy's burn, or of the chief's in a scene without "
       "one; linear in the errors."};
   return table;
@@ -322,9 +322,8 @@ const TableDescription& uncertainty_table() {
              "flown with the full equations beside the moments; 0: none"},
             {"seed", form::integer(0, largest_seed), absent::value(preset.seed),
              "seed of the samples"}}}),
-      "How well the chief's state at the start is known; RTN is of its own orbit. The frame is "
-      "that "
-      "of the results too, at the chief."};
+      "How well the chief's state at the start is known; RTN are the axes of the chief's own "
+      "orbit. The results are in the same frame, at the chief."};
   return table;
 }
 

@@ -174,15 +174,17 @@ TEST(SceneTransfer, TheFrameIsThatOfTheDeputyElseRtn) {
 
 TEST(SceneTransfer, AFormIsNoFrameAndItsKeysAreSaid) {
   const std::string deputy = "[deputy]\nposition_m = [1, 0, 0]\nframe = ";
+  expect_scene_error(circle_scene + deputy + "\"relative-elements\"\n",
+                     {"file.toml:18:9: deputy.frame: the name of a form, not of a frame, got "
+                      "\"relative-elements\"",
+                      "must be \"RTN\", \"inertial\" or left out",
+                      "the keys a_da_m, a_dlambda_m, a_dex_m, a_dey_m, a_dix_m, a_diy_m"});
+  expect_scene_error(circle_scene + deputy + "\"Relative_Elements\"\n", {"a form, not of a frame"});
+  expect_scene_error(circle_scene + deputy + "\"curvilinear\"\n",
+                     {"a form, not of a frame", "arc_m"});
   expect_scene_error(
-      circle_scene + deputy + "\"relative-elements\"\n",
-      {"file.toml:18:9: deputy.frame: a form and no frame, got \"relative-elements\"",
-       "must be \"RTN\", \"inertial\" or left out",
-       "the keys a_da_m, a_dlambda_m, a_dex_m, a_dey_m, a_dix_m, a_diy_m"});
-  expect_scene_error(circle_scene + deputy + "\"Relative_Elements\"\n", {"a form and no frame"});
-  expect_scene_error(circle_scene + deputy + "\"curvilinear\"\n", {"a form and no frame", "arc_m"});
-  expect_scene_error(circle_scene + changed(transfer, "\"RTN\"", "\"element-differences\""),
-                     {"transfer.frame: a form and no frame", "where it starts, the keys da_m"});
+      circle_scene + changed(transfer, "\"RTN\"", "\"element-differences\""),
+      {"transfer.frame: the name of a form, not of a frame", "is given by the keys da_m"});
 }
 
 TEST(SceneTransfer, LocalVerticalIsRefusedWithItsTwoMeanings) {

@@ -162,7 +162,7 @@ TableView frozen_orbit_table(const FrozenOrbitStudy& study) {
 TableView circles_table(const FrozenOrbitStudy& study) {
   ResultTable<LibrationCircle> table(
       "poincare", "", {"circles"},
-      "Circles of the normal form about the frozen orbit, of the chief's energy and momentum.");
+      "Circles of the normal form about the frozen orbit, at the chief's energy and momentum.");
   const auto of_form = [&](auto value) {
     return study.failure.empty() ? std::optional(value) : std::nullopt;
   };

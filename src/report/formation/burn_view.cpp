@@ -106,7 +106,8 @@ TableView burns_table(const TransferResult& result) {
   table.add("burn", "", "its number among those of the transfer, from 1", [](const BurnRow& row) {
     return row.burn != nullptr ? std::optional(row.number) : std::nullopt;
   });
-  table.add("impulse_time_s", "s", "of the impulse: the mean time of the burn's change",
+  table.add("impulse_time_s", "s",
+            "the time of the impulse, which is the mean time of the burn's velocity change",
             in_seconds(&FiniteBurn::time));
   table.add("start_s", "s", "when it begins, since the transfer's start",
             in_seconds(&FiniteBurn::start));

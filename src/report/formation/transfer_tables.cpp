@@ -129,7 +129,8 @@ void add_scalars(ResultTable<TransferPoint>& table, const TransferResult& result
                   "from singularities, and as the scene allows; nothing without one",
                   best)
       .is_in_json = false;  // summary.json has the row itself there
-  table.add_scalar("is_first_or_last_time", "", "whether the least is at an end of the times",
+  table.add_scalar("is_first_or_last_time", "",
+                   "whether the least velocity change is at the first or the last of the times",
                    best && last > 0 && (*best == 0 || *best == last));
   table.add_scalar("times_between_listed", "",
                    "the number of further times that were answered between the listed ones",

@@ -13,14 +13,16 @@ TableView force_table(const std::vector<ForceSize>& forces) {
                                "How large each force of the real Earth is along the chief's orbit, "
                                "and what leaving it out changes.");
   table.add("force", "", "what is left out", &ForceSize::name);
-  table.add("key", "", "of `[system]`, which leaves it out", &ForceSize::key);
-  table.add("largest_m_s2", "m/s^2", "its largest acceleration along the chief's orbit",
+  table.add("key", "", "the key of `[system]` that leaves the force out", &ForceSize::key);
+  table.add("largest_m_s2", "m/s^2",
+            "the largest acceleration by the force along the chief's orbit",
             &ForceSize::largest_m_s2);
-  table.add("chief_m", "m", "by how much the chief's position changes without it, at most",
+  table.add("chief_m", "m", "by how much the chief's position changes without the force, at most",
             &ForceSize::chief_m);
-  table.add("relative_m", "m",
-            "by how much the deputy's position relative to the chief changes, at most",
-            &ForceSize::relative_m);
+  table.add(
+      "relative_m", "m",
+      "by how much the deputy's position relative to the chief changes without the force, at most",
+      &ForceSize::relative_m);
   return std::move(table).view(forces, {forces.size()});
 }
 

@@ -59,7 +59,7 @@ std::vector<std::string> failed_checks(const SafetyResult& result) {
         pair.margin
             ? fmt::format("the ellipsoid stays free up to {:.4g} sigma{}", *pair.margin->deviations,
                           is_in_doubt(pair) ? ", which its flight does not confirm" : "")
-            : "how far the ellipsoid stays free was not found",
+            : "the size up to which the ellipsoid stays free was not found",
         *watch.least_deviations));
   }
   return failed;

@@ -152,7 +152,7 @@ std::vector<SceneKey> earth_keys() {
            owner},
           {"gravity_order", form::integer(0, SphericalHarmonicField::highest_degree),
            absent::other("`gravity_degree`"),
-           "the highest order of the harmonics; 0 leaves zonal ones", owner},
+           "the highest order of the harmonics; with 0 only zonal ones are left", owner},
           {"sun", form::boolean(), absent::value(preset.has_sun), "whether it attracts", owner},
           {"moon", form::boolean(), absent::value(preset.has_moon), "whether it attracts", owner},
           {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),

@@ -40,9 +40,8 @@ void require_degree(const TableReader& system, int degree, const GravityModel& m
     system.fail("gravity_degree", fmt::format("beyond the file's, got {}, {}", degree, right));
   }
   system.fail("gravity_file",
-              fmt::format("no gravity_degree beside a file below degree {}, which is taken without "
-                          "that key, {}",
-                          degree, right));
+              fmt::format("no gravity_degree, whose default of {} is beyond the file's, {}", degree,
+                          right));
 }
 
 /// Refuses a file whose tide system nobody says, and one that says another than the scene.

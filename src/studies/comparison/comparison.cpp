@@ -366,8 +366,8 @@ void require_comparable(const Scene& scene) {
   }
   if (scene.duration == 0) {
     throw Error(ErrorKind::scene,
-                "jet: the duration is 0, at which every integrator gives the identity; must be "
-                "another to compare integrators");
+                "jet: the duration is 0, at which every integrator gives the identity; to compare "
+                "integrators it must be another");
   }
 }
 

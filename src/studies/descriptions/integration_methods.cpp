@@ -160,7 +160,7 @@ MethodDescription newmark() {
           "gamma = 1/2, beta from 0 to 1/2, implicit for beta > 0, order 2; not symplectic "
           "in (q, p) for beta > 0; step_canonical or step_s",
       .settings = {{.key = "beta",
-                    .help = "explicit and symplectic at 0",
+                    .help = "Newmark's parameter; at 0 the method is explicit and symplectic",
                     .member = &Settings::beta,
                     .least = 0,
                     .most = 0.5,

@@ -118,8 +118,8 @@ PeriodicStudy study_periodic(const Scene& scene, const ProgressCallback& progres
   const SharedSystem system(make_system(scene));
   if (!system->is_autonomous() || !system->is_hamiltonian || system->parameters != 0) {
     throw Error(ErrorKind::scene,
-                "periodic: of a Hamiltonian that depends on the time, or of more than positions "
-                "and momenta, must be an autonomous Hamiltonian system");
+                "periodic: the system has no Hamiltonian, depends on the time or has parameters, "
+                "must be an autonomous Hamiltonian system");
   }
   const PeriodicSettings& settings = *scene.periodic;
   PeriodicStudy study{scene, {}, {}};

@@ -50,9 +50,9 @@ std::optional<std::string> along_track_warning(const AlongTrackBend& bend, doubl
   if (!bend.is_large_beside(length)) return std::nullopt;
   const std::size_t longer = bend.deviations[1] > bend.deviations[0] ? 1 : 0;
   return fmt::format(
-      "the {} is uncertain by {:.3g} m along its track, where the orbit bends {:.3g} m away from "
-      "the straight line of a Gaussian in positions, beside {:.3g} m that are uncertain across it "
-      "and the {:.3g} m that are asked about: states are not so distributed, and {} is not to be "
+      "the {} is uncertain by {:.3g} m along its track, where the orbit bends {:.3g} m away from a "
+      "straight line; across the track it is uncertain by {:.3g} m, and the question is about "
+      "{:.3g} m. A Gaussian in positions does not describe such states, and {} is not to be "
       "trusted",
       names[longer], bend.deviations[longer] * units.length_m, bend.bend * units.length_m,
       bend.radial * units.length_m, length * units.length_m, what);

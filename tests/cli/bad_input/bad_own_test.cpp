@@ -115,7 +115,7 @@ TEST_F(BadOwn, StudiesAreOneLine) {
   expect_each_refused(own_scene, mistakes);
   // An orbit that closes at one time does not at another where the forces change.
   expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",
-                 {"periodic: of a Hamiltonian that depends on the time, got t", "without t"});
+                 {"periodic: the Hamiltonian depends on the time, got t", "without t"});
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ enum class SelfCheckName {
   symplecticity,   ///< for symplectic methods, Poisson brackets of the linear part
   inversion,       ///< inverted maps composed with the map are the identity
   surface,         ///< the nominal's smallest distance from the centre
-  error_estimate,  ///< the error of every degree, from independent runs along directions
+  error_estimate,  ///< the error of every degree, by independent runs along a few directions
 };
 
 inline constexpr std::size_t self_check_count =
