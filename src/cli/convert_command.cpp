@@ -159,12 +159,12 @@ CLI::App* add_convert_command(CLI::App& app, ConvertOptions& options) {
   const std::vector<std::string> names(jet_coordinates_names.begin(), jet_coordinates_names.end());
   command
       ->add_option("--coordinates", options.coordinates,
-                   "of the polynomials at both ends, in a file .h5; what was lost is printed "
-                   "(default: as they are)")
+                   "coordinates of the polynomials at both ends, in a file .h5; what was lost is "
+                   "printed (default: those of the jet)")
       ->check(CLI::IsMember(names));
   command
       ->add_option("--end-coordinates", options.end_coordinates,
-                   "of their results, where others than at the start")
+                   "coordinates at the end, where they differ from those at the start")
       ->check(CLI::IsMember(names));
   command
       ->add_option("--scene", options.scene,

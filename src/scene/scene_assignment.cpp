@@ -46,12 +46,13 @@ const TableDescription& assignment_table() {
   };
   static const TableDescription table = {
       {{"time", form::choice({"per-pair", "common"}), absent::value("per-pair"),
-        "each pair its best transfer time, or one time for all"},
+        "whether each pair has its own best transfer time, or all pairs have the same one"},
        {"keep_apart_m", form::positive(), absent::other("any"),
         "deputies that come nearer to each other on their ways fail the command"},
        {"deputy", tables(assigned_deputy_table()), absent::refused(), "where the deputies start"},
        {"slot", tables(slot_table()), absent::refused(),
-        "where they may end; of deputies and slots the fewer all find one"}},
+        "where the deputies may end; where there are fewer slots than deputies all slots are "
+        "filled, otherwise all deputies find one"}},
       "Transfer times and frame are those of `[transfer]`."};
   return table;
 }

@@ -27,7 +27,7 @@ const TableDescription& box_table() {
   static const BoxSettings preset;
   static const TableDescription table = {
       {{"half_widths_m", form::array(form::positive(), 3), absent::refused(),
-        "along the chief's R, T and N, from the box's middle to its faces"},
+        "distances along the chief's R, T and N from the box's middle to its faces"},
        {"reference", form::choice({"rest", "member"}), absent::value("member"),
         "the box's middle: `position_m`, where each return ends at rest in rotating axes; or the "
         "deputy of the first of `sizes_km`, whose motion each return ends with"},

@@ -42,10 +42,10 @@ const TableDescription& collision_table() {
 std::array<double, 2> read_window(const TableReader& table, const Scene& scene,
                                   bool may_begin_before) {
   if (!scene.deputy) {
-    table.fail("", "of a scene without a deputy, got no table [deputy], must have one");
+    table.fail("", "the scene has no deputy, got no table [deputy], must have one");
   }
   if (scene.duration < 0) {
-    table.fail("", "of a scene that goes backwards, got a negative duration, must go forwards");
+    table.fail("", "the scene goes backwards, got a negative duration, must go forwards");
   }
   const double duration_s = scene.duration * scene.units.time_s;
   std::vector<double> window = {0, duration_s};

@@ -59,7 +59,7 @@ const TableDescription& compare_table() {
   static const ComparisonSettings preset;
   static const TableDescription table = {
       {{"methods", form::array(form::choice(method_names())),
-        absent::other("the usual ones of this build"), "each once"},
+        absent::other("the usual ones of this build"), "methods to compare, each once"},
        {"stages", form::array(form::integer(1, most_gauss_stages)), absent::value(preset.stages),
         "stages of the Gauss methods"},
        {"steps_canonical", form::array(form::positive()),
@@ -75,8 +75,9 @@ const TableDescription& compare_table() {
        {"repeats", form::integer(1, most_repeats), absent::value(preset.repeats),
         "timings of each run, in turns"},
        {"time_budget_s", form::positive(), absent::value(preset.time_budget_s),
-        "of the runs that are compared, with their repeats; what would exceed it is left out, and "
-        "said. Reference, errors along time and fits of orders come on top"},
+        "time for the runs that are compared, with their repeats; runs that would exceed it are "
+        "left out, which is told. Reference, errors along time and fits of orders take more time "
+        "on top of it"},
        {"wanted_error_m", form::positive(), absent::value(preset.wanted_error_m),
         "error at the separation of `[formation]` that verdict and advice refer to"}}};
   return table;

@@ -62,7 +62,8 @@ std::string explicit_kind(const std::string& kind, std::size_t degrees_of_freedo
 const TableDescription& generating_function_table() {
   static const TableDescription table = {
       {{"kinds", form::words("array of kinds", form::array(form::text())), absent::refused(),
-        "each once: `F1` to `F4`, letters such as `qpq-qqp`, or `auto`, the best conditioned"},
+        "kinds to compute, each once: `F1` to `F4`, letters such as `qpq-qqp`, or `auto`, the best "
+        "conditioned"},
        {"despite_drag",
         form::boolean(),
         absent::value(false),

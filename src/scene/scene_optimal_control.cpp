@@ -85,7 +85,8 @@ const TableDescription& optimal_control_table() {
        {"method", form::choice(discretization_names()), absent::refused(), "the discretisation"},
        // Costs are proportional to the inverse third power of the duration, and binary64 must hold
        // them.
-       {"duration", form::between(1e-30, 1e30), absent::refused(), "without unit"},
+       {"duration", form::between(1e-30, 1e30), absent::refused(),
+        "duration of the motion, without unit"},
        {"steps", form::integer(1, most_steps), absent::refused(), "equal ones"},
        {"refinements", form::array(form::integer(1, most_steps)), absent::other("none"),
         "further numbers of steps, for the order of convergence"},

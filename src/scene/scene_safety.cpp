@@ -88,7 +88,8 @@ SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nom
   }
   if (safety.has("burn_shares")) {
     if (!has_burn) {
-      safety.fail("burn_shares", "of no burn, got shares, must have a table [uncertainty.burn]");
+      safety.fail("burn_shares",
+                  "there is no burn, got shares, must have a table [uncertainty.burn]");
     }
     watch.burn_shares = read_burn_shares(safety);
   } else if (!has_burn) {
@@ -103,7 +104,7 @@ SafetyWatch read_safety(const TableReader& safety, const Scene& scene, const Nom
   if (safety.has("least_deviations")) {
     if (!watch.keep_out_m) {
       safety.fail("least_deviations",
-                  "of no ellipsoid, got a number without the key keep_out_m, must have one");
+                  "there is no ellipsoid, got a number without the key keep_out_m, must have one");
     }
     watch.least_deviations = safety.positive_number("least_deviations");
   }

@@ -16,17 +16,18 @@ constexpr double standard_gravity = 9.80665;
 const TableDescription& thruster_table() {
   static const TableDescription table = {
       {{"acceleration_m_s2", form::positive(), absent::other("`thrust_N`"),
-        "that stays the same while the thruster burns"},
+        "acceleration that stays the same while the thruster burns"},
        {"thrust_N", form::positive(), absent::other("`acceleration_m_s2`"),
-        "beside `mass_kg` and `specific_impulse_s`: the mass falls while it burns"},
+        "thrust, beside `mass_kg` and `specific_impulse_s`: the mass falls while the thruster "
+        "burns"},
        {"mass_kg", form::positive(), absent::other("refused beside `acceleration_m_s2`"),
-        "of the spacecraft before its first burn"},
+        "mass of the spacecraft before its first burn"},
        {"specific_impulse_s", form::positive(), absent::other("refused beside `acceleration_m_s2`"),
         "speed of the exhaust over 9.80665 m/s^2"},
        {"propellant_kg", form::positive(), absent::other("as much as it takes"),
-        "of `mass_kg`: burns that take more are none"},
-       {"longest_burn_s", form::positive(), absent::other("any"), "longer ones are none"},
-       {"shortest_burn_s", form::positive(), absent::other("any"), "shorter ones are none"},
+        "propellant, a part of `mass_kg`: burns that take more are not allowed"},
+       {"longest_burn_s", form::positive(), absent::other("any"), "longer burns are not allowed"},
+       {"shortest_burn_s", form::positive(), absent::other("any"), "shorter burns are not allowed"},
        {"attitude", form::choice({"RTN", "inertial"}), absent::value("RTN"),
         "the direction of a burn stays the same along R, T, N of the spacecraft's own orbit, or "
         "along the inertial axes"}},

@@ -231,7 +231,7 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
     return of_file;
   }
   if (table.has("object")) {
-    table.fail("object", "of no file, got an object without the key file, must be left out");
+    table.fail("object", "there is no file, got an object without the key file, must be left out");
   }
   const bool has_deviations = table.has("position_m") || table.has("velocity_m_s");
   // A state that is known exactly may be that of a spacecraft whose drag is not.
@@ -338,7 +338,7 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
     const TableReader deputy = uncertainty.table("deputy");
     deputy.check_keys();
     if (!scene.deputy) {
-      deputy.fail("", "of a scene without a deputy, got no table [deputy], must have one");
+      deputy.fail("", "the scene has no deputy, got no table [deputy], must have one");
     }
     const TableReader owner = root.table("deputy");
     settings.deputy = read_state_uncertainty(deputy, uncertainty, scene, nominal, &owner);

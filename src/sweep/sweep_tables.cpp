@@ -36,8 +36,9 @@ const TableDescription& column_table() {
   static const TableDescription table = {
       {{"name", form::text(), absent::refused(),
         "name of the column; no other column or key has it"},
-       {"unit", form::text(), absent::other("none"), "beside the name"},
-       {"value", form::words("JSON pointer"), absent::refused(), "into `summary.json`"}}};
+       {"unit", form::text(), absent::other("none"), "unit that is shown beside the name"},
+       {"value", form::words("JSON pointer"), absent::refused(),
+        "where the value stands in `summary.json`"}}};
   return table;
 }
 

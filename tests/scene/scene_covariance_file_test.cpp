@@ -107,7 +107,7 @@ TEST(CovarianceFile, OfAnotherMomentObjectOrFormIsRefused) {
   refuse(dated(closest) + "[uncertainty]\nposition_m = [1, 1, 1]\n" + conjunction_file,
          {"uncertainty.position_m", "beside a file"});
   refuse("[uncertainty]\nobject = \"OBJECT1\"\nposition_m = [1, 1, 1]\n",
-         {"uncertainty.object", "of no file"});
+         {"uncertainty.object", "there is no file"});
   expect_scene_error(earth_scene() + "[uncertainty]\nfile = \"nowhere.cdm\"\n",
                      {"uncertainty.file", "nowhere.cdm"}, ErrorKind::input_output);
 }

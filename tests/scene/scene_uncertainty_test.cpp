@@ -135,7 +135,7 @@ TEST(SceneUncertainty, BadCovariancesAreRefusedByName) {
   refuse("[uncertainty]\nposition_m = [1, 1, 1]\n" + rows(),
          {"uncertainty.position_m", "beside a covariance"});
   refuse("[uncertainty]\nposition_m = [1, 1, 1]\n[uncertainty.deputy]\nposition_m = [1, 1, 1]\n",
-         {"uncertainty.deputy", "without a deputy"});
+         {"uncertainty.deputy", "has no deputy"});
   refuse("[uncertainty.burn]\nvelocity_change_m_s = [1, 0, 0]\n",
          {"uncertainty.burn", "no error of the burn"});
 }

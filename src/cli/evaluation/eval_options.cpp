@@ -53,9 +53,9 @@ CLI::App* add_eval_command(CLI::App& app, EvalOptions& options) {
   eval->add_option("--to", options.frames.to,
                    "the frame of the results (default: that of the deviations)")
       ->type_name(frame_type);
-  eval->add_option("--derivatives", options.frames.derivatives,
-                   "of RTN: rotating (default: velocities as seen from the turning axes) or "
-                   "inertial")
+  eval->add_option(
+          "--derivatives", options.frames.derivatives,
+          "velocities in RTN: rotating (default: as seen from the turning axes) or inertial")
       ->type_name("{rotating,inertial}");
   eval->add_option("--time", options.time,
                    "jets at these times that jet.times_s (or _orbits, _canonical, count) of the "

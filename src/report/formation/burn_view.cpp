@@ -99,20 +99,22 @@ TableView burns_table(const TransferResult& result) {
   const auto in_seconds = [&](double FiniteBurn::*time) {
     return of_burn([=](const FiniteBurn& burn) { return burn.*time * unit; });
   };
-  table.add("impulses", "", "in whose place it is: `two`, or `optimal`",
+  table.add("impulses", "", "which impulses the burn replaces: `two`, or `optimal`",
             [](const BurnRow& row) { return impulses_name(*row.plan); });
-  table.add("transfer_time_s", "s", "between the ends of the transfer",
+  table.add("transfer_time_s", "s", "the time between the ends of the transfer",
             [=](const BurnRow& row) { return row.plan->duration * unit; });
-  table.add("burn", "", "its number among those of the transfer, from 1", [](const BurnRow& row) {
-    return row.burn != nullptr ? std::optional(row.number) : std::nullopt;
-  });
+  table.add("burn", "", "the burn's number among those of the transfer, from 1",
+            [](const BurnRow& row) {
+              return row.burn != nullptr ? std::optional(row.number) : std::nullopt;
+            });
   table.add("impulse_time_s", "s",
             "the time of the impulse, which is the mean time of the burn's velocity change",
             in_seconds(&FiniteBurn::time));
-  table.add("start_s", "s", "when it begins, since the transfer's start",
+  table.add("start_s", "s", "when the burn begins, counted from the transfer's start",
             in_seconds(&FiniteBurn::start));
-  table.add("end_s", "s", "when it ends", in_seconds(&FiniteBurn::end));
-  table.add("length_s", "s", "how long it lasts",
+  table.add("end_s", "s", "when the burn ends, counted from the transfer's start",
+            in_seconds(&FiniteBurn::end));
+  table.add("length_s", "s", "how long the burn lasts",
             of_burn([=](const FiniteBurn& burn) { return (burn.end - burn.start) * unit; }));
   table.add_array("direction", {"direction_1", "direction_2", "direction_3"}, "",
                   "the unit vector along the axes of the thruster's attitude: R, T, N of the "
@@ -122,39 +124,47 @@ TableView burns_table(const TransferResult& result) {
             of_burn(&FiniteBurn::change_m_s));
   table.add("impulse_m_s", "m/s", "the magnitude of the impulse",
             of_burn(&FiniteBurn::impulse_m_s));
-  table.add("gravity_loss_m_s", "m/s", "by how much the burn's change is larger",
+  table.add("gravity_loss_m_s", "m/s",
+            "by how much the burn's velocity change is larger than the impulse",
             of_burn(&FiniteBurn::loss_m_s));
-  table.add("propellant_kg", "kg", "that it takes; nothing where no mass is given",
+  table.add("propellant_kg", "kg",
+            "the propellant that the burn takes; nothing where no mass is given",
             [](const BurnRow& row) {
               return row.burn != nullptr ? row.burn->propellant_kg : std::nullopt;
             });
-  table.add("mass_after_kg", "kg", "of the spacecraft behind it", [](const BurnRow& row) {
-    return row.burn != nullptr ? row.burn->mass_after_kg : std::nullopt;
-  });
+  table.add("mass_after_kg", "kg", "the mass of the spacecraft after the burn",
+            [](const BurnRow& row) {
+              return row.burn != nullptr ? row.burn->mass_after_kg : std::nullopt;
+            });
   const auto of_plan = [](auto value) {
     return [value](const BurnRow& row) {
       return row.burn != nullptr ? std::optional(std::invoke(value, *row.plan)) : std::nullopt;
     };
   };
-  table.add("total_change_m_s", "m/s", "of all burns of the transfer",
+  table.add("total_change_m_s", "m/s",
+            "the sum of the velocity changes of all burns of the transfer",
             of_plan(&BurnPlan::change_m_s));
-  table.add("total_impulses_m_s", "m/s", "of its impulses",
+  table.add("total_impulses_m_s", "m/s", "the sum of the magnitudes of the transfer's impulses",
             [](const BurnRow& row) { return row.plan->impulses_m_s; });
-  table.add("miss_m", "m", "of the deputy that flies the burns", of_plan(&BurnPlan::miss_m));
-  table.add("velocity_miss_m_s", "m/s", "likewise", of_plan(&BurnPlan::velocity_miss_m_s));
-  table.add("flights", "", "that the correction took",
+  table.add("miss_m", "m", "the miss of the position of the deputy that flies the burns",
+            of_plan(&BurnPlan::miss_m));
+  table.add("velocity_miss_m_s", "m/s",
+            "the miss of the velocity of the deputy that flies the burns",
+            of_plan(&BurnPlan::velocity_miss_m_s));
+  table.add("flights", "", "the number of flights that the correction took",
             [](const BurnRow& row) { return row.plan->flights; });
   table.add("least_acceleration_m_s2", "m/s^2",
-            "of the full spacecraft, with which there are burns; nothing where the thruster's is "
-            "enough, or the impulses are not the cheapest",
+            "the least acceleration of the full spacecraft with which there are such burns; "
+            "nothing where the thruster's is enough, or the impulses are not the cheapest",
             [](const BurnRow& row) { return row.plan->least_acceleration_m_s2; });
   table.add("failure", "", "why these burns cannot replace the impulses",
             [](const BurnRow& row) { return row.plan->failure; });
   const BurnPlan* least = least_plan(result);
-  table.add_scalar("least_change_m_s", "m/s", "of the cheapest burns that were found",
+  table.add_scalar("least_change_m_s", "m/s",
+                   "the velocity change of the cheapest burns that were found",
                    least != nullptr ? std::optional(least->change_m_s()) : std::nullopt);
   table.add_scalar(
-      "least_transfer_time_s", "s", "their transfer's time",
+      "least_transfer_time_s", "s", "the transfer time of the cheapest burns that were found",
       least != nullptr ? std::optional(seconds(result, least->duration)) : std::nullopt);
   table.add_scalar("shortest_transfer_time_s", "s",
                    "the first of the times at which burns can replace the two impulses",

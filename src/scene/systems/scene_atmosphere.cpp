@@ -144,13 +144,13 @@ std::vector<SceneKey> atmosphere_keys() {
       {"bulge_exponent", form::integer(2, 6), absent::value(air.bulge_exponent),
        "exponent of the bulge's cosine, even: 2 for low inclinations, 6 for polar orbits", owner},
       {"density_file", form::text(), absent::other("`heights_km`"),
-       "of the `table`, CSV with the columns `height_km` and `density_kg_m3`, relative to the "
-       "scene's folder",
+       "file of the `table`, CSV with the columns `height_km` and `density_kg_m3`; its path is "
+       "relative to the scene's folder",
        owner},
       {"heights_km", form::array(form::number()), absent::other("`density_file`"),
-       "of the `table` above the ellipsoid, at least 4, increasing", owner},
+       "heights of the `table` above the ellipsoid, at least 4, increasing", owner},
       {"densities_kg_m3", form::array(form::positive()), absent::other("`density_file`"),
-       "of the `table` at its heights; between them ln of the density is smooth", owner}};
+       "densities of the `table` at its heights; between them ln of the density is smooth", owner}};
 }
 
 void read_air(const TableReader& system, EarthSettings& earth) {

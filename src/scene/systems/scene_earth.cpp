@@ -147,20 +147,22 @@ void read_orientation(const TableReader& system, EarthSettings& earth) {
 std::vector<SceneKey> earth_keys() {
   const std::vector<std::string_view> owner = {"earth"};
   const EarthSettings preset;
-  return {{"gravity_degree", form::integer(2, SphericalHarmonicField::highest_degree),
-           absent::value(preset.degree), "the highest degree of the harmonics of the Earth's field",
-           owner},
-          {"gravity_order", form::integer(0, SphericalHarmonicField::highest_degree),
-           absent::other("`gravity_degree`"),
-           "the highest order of the harmonics; with 0 only zonal ones are left", owner},
-          {"sun", form::boolean(), absent::value(preset.has_sun), "whether it attracts", owner},
-          {"moon", form::boolean(), absent::value(preset.has_moon), "whether it attracts", owner},
-          {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),
-           "gravitational parameter of the Sun", owner},
-          {"mu_moon_km3_s2", form::positive(), absent::value(preset.mu_moon_km3_s2),
-           "gravitational parameter of the Moon", owner},
-          {"orientation_file", form::text(), absent::other("UT1 = UTC, no polar motion"),
-           "finals2000A of the IERS, relative to the scene's folder", owner}};
+  return {
+      {"gravity_degree", form::integer(2, SphericalHarmonicField::highest_degree),
+       absent::value(preset.degree), "the highest degree of the harmonics of the Earth's field",
+       owner},
+      {"gravity_order", form::integer(0, SphericalHarmonicField::highest_degree),
+       absent::other("`gravity_degree`"),
+       "the highest order of the harmonics; with 0 only zonal ones are left", owner},
+      {"sun", form::boolean(), absent::value(preset.has_sun), "whether this body attracts", owner},
+      {"moon", form::boolean(), absent::value(preset.has_moon), "whether this body attracts",
+       owner},
+      {"mu_sun_km3_s2", form::positive(), absent::value(preset.mu_sun_km3_s2),
+       "gravitational parameter of the Sun", owner},
+      {"mu_moon_km3_s2", form::positive(), absent::value(preset.mu_moon_km3_s2),
+       "gravitational parameter of the Moon", owner},
+      {"orientation_file", form::text(), absent::other("UT1 = UTC, no polar motion"),
+       "finals2000A of the IERS, relative to the scene's folder", owner}};
 }
 
 std::vector<SceneKey> epoch_keys() {
@@ -217,7 +219,7 @@ void read_earth(const TableReader& root, SystemSettings& settings) {
   const auto read_mu = [&](std::string_view key, double& mu, bool acts) {
     if (!system.has(key)) return;
     if (!acts) {
-      system.fail(key, fmt::format("of a body that does not attract, got {}, must be left out",
+      system.fail(key, fmt::format("the body does not attract, got {}, must be left out",
                                    system.found(key)));
     }
     const double usual = mu;

@@ -96,7 +96,7 @@ std::vector<SceneKey> own_keys() {
       {"states", form::array(form::text()), absent::other("`coordinates` and `momenta`"),
        "names of the variables of a vector field", own},
       {"vector_field", table_of("table of expressions"), absent::other("`hamiltonian`"),
-       "for each state its derivative by the time", own}};
+       "the derivative of each state by the time", own}};
 }
 
 void read_own_system(const TableReader& root, SystemSettings& settings) {

@@ -184,11 +184,11 @@ TEST_F(Safety, RefusesWhatDoesNotFit) {
   refuse(stopped, "keep_apart_m = 50", "keep_apart_m = 50\nburn_shares = [0.5, 0.5]",
          {"uncertainty.safety.burn_shares.1", "or twice"});
   refuse(stopped + "least_deviations = 3\n", "keep_out_m = [200, 400, 200]\n", "",
-         {"uncertainty.safety.least_deviations", "of no ellipsoid"});
+         {"uncertainty.safety.least_deviations", "there is no ellipsoid"});
   refuse(stopped + "burn_shares = [1]\n",
          "[uncertainty.burn]\nvelocity_change_m_s = [0, -0.1, 0]\nmagnitude = 0.01\n",
          "position_m = [1, 1, 1]\n[uncertainty.deputy]\nposition_m = [1, 1, 1]\n",
-         {"uncertainty.safety.burn_shares", "of no burn"});
+         {"uncertainty.safety.burn_shares", "there is no burn"});
   refuse(stopped + waiting, "position_m = [0, -1000, 0]", "frame = \"RTN\"",
          {"uncertainty.safety.deputy", "frame", "which is in the frame of the table [deputy]"});
 }
