@@ -22,7 +22,7 @@ double by_decomposition(const Eigen::Matrix3d& matrix) {
 /// it is nearly a double root, which rounding would move far, or is not found.
 double least_root(double a, double b, double c) {
   constexpr int most_iterations = 20;
-  constexpr double least_slope = 0.01;  // of the polynomial, as a fraction of b
+  constexpr double least_slope = 0.01;  // the least slope of the polynomial, as a fraction of b
   constexpr double rounding = 1e-15;
   double x = c / b;
   for (int i = 0; i < most_iterations; ++i) {

@@ -279,8 +279,9 @@ void DeputyEvaluation::run(
 
 bool DeputyEvaluation::is_nearly_straight(const SixNumbers<double>& initial,
                                           const DeputyPrediction& found) const {
-  constexpr double largest_share = 0.1;    // of the deviation that a degree adds
-  constexpr double largest_extent = 0.03;  // of the deviation in the chief's distance
+  constexpr double largest_share = 0.1;  // the largest share of the deviation that a degree adds
+  // The largest deviation as a share of the chief's distance.
+  constexpr double largest_extent = 0.03;
   const auto length = [](const SixNumbers<double>& z) { return std::hypot(z[0], z[1], z[2]); };
   const double size = std::max(length(initial), length(found.deviation));
   return length(found.highest[0]) <= largest_share * size &&

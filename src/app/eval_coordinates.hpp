@@ -23,7 +23,8 @@ const std::vector<DeputyForm>& forms();
 struct EvalFrames {
   std::string frame = "RTN";           ///< name of a form, or canonical
   std::optional<std::string> to = {};  ///< the frame of the results; that of `frame` if absent
-  std::optional<std::string> derivatives = {};  ///< of RTN: rotating (default) or inertial
+  /// Velocities in RTN: rotating (default) or inertial.
+  std::optional<std::string> derivatives = {};
   Caller caller = Caller::command;
 
   const std::string& final_frame() const { return to ? *to : frame; }

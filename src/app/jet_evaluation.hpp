@@ -59,7 +59,7 @@ class JetEvaluation {
   std::optional<MapEvaluator> whole_;  ///< up to the jet's order, where the first stops below it
   MapEvaluator error_;                 ///< see evaluation_error
   std::size_t positions_;              ///< how many components are positions, the first ones
-  double momentum_unit_;               ///< that makes momenta alike to positions, see DegreeShares
+  double momentum_unit_;  ///< the unit that makes momenta alike to positions, see DegreeShares
   double length_m_;
   double chief_error_;
   std::vector<double> pending_;  ///< point after point
@@ -71,7 +71,7 @@ class JetEvaluation {
   std::vector<double> whole_values_;
   std::vector<double> last_;  ///< of the highest degree evaluated by either
   std::vector<double> last_but_one_;
-  std::vector<double> magnitudes_;  ///< of the variables
+  std::vector<double> magnitudes_;  ///< magnitudes of the variables
   std::vector<double> errors_;
 };
 

@@ -14,8 +14,8 @@ namespace hamjet {
 /// in one unit, and positions are outside the sphere. Source: Montenbruck and Gill, Satellite
 /// Orbits, section 3.4.2.
 struct Shadow {
-  double radius = 0;      ///< of the sphere
-  double sun_radius = 0;  ///< of the Sun
+  double radius = 0;      ///< radius of the sphere
+  double sun_radius = 0;  ///< radius of the Sun
 };
 
 /// The fraction of the Sun's disc that is seen from a position, 0 to 1: discs of the angular radii

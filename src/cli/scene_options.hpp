@@ -14,7 +14,7 @@ namespace hamjet::cli {
 /// Options of the commands that take a scene.
 struct RunOptions {
   std::optional<std::string> scene_file;  ///< absent: the built-in scene
-  std::optional<std::string> scene_text;  ///< of standard input; scene_file is its name
+  std::optional<std::string> scene_text;  ///< the text of standard input; scene_file is its name
   std::optional<std::string> output;
   std::vector<std::string> overrides;  ///< key=value
   bool json = false;

@@ -295,9 +295,9 @@ class Reader {
   GetEpoch get_epoch_;
   GravityFormat format_ = GravityFormat::icgem1;
   std::set<Harmonic> wanted_;
-  int highest_order_ = 0;  ///< of those wanted
+  int highest_order_ = 0;  ///< the highest order of the wanted coefficients
   int line_ = 0;
-  int end_of_head_ = 0;  ///< its line
+  int end_of_head_ = 0;  ///< the line at which the head ends
   std::vector<std::string_view> words_;
   std::map<std::string, HeaderLine, std::less<>> header_;
   bool is_normalized_ = true;

@@ -19,7 +19,7 @@ struct OutputFormat {
   std::string_view name = {};
   std::string_view help =
       {};  ///< what a file of this format is, for people; empty where the ending says enough
-  std::string_view file;  ///< its name in the results, or in the folder of each run
+  std::string_view file;  ///< the file's name in the results, or in the folder of each run
   /// The ending of the jet files that `hamjet convert` writes and reads.
   std::string_view ending = {};
   int digits = 0;  ///< largest number of digits of a coefficient; 0 for all

@@ -223,7 +223,7 @@ class EnergyGuard {
   std::vector<Real> last_state_;
   Real last_time_ = 0;
   Real by_time_ = 0;        ///< change that H has made by itself since the start
-  double uncertainty_ = 0;  ///< of that change
+  double uncertainty_ = 0;  ///< the uncertainty of that change
   Real start_ = 0;
   double start_scale_ = 0;
   double least_share_ = 0;  ///< least fraction of the terms of the present state

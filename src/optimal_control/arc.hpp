@@ -11,8 +11,8 @@ namespace hamjet {
 /// A run of an advance map over several steps, with its Jacobians.
 struct Arc {
   std::vector<Eigen::VectorXd> points;     ///< (x, p) at the start and after each step
-  std::vector<Eigen::VectorXd> controls;   ///< of each step
-  std::vector<Eigen::MatrixXd> jacobians;  ///< of each step
+  std::vector<Eigen::VectorXd> controls;   ///< the control in each step
+  std::vector<Eigen::MatrixXd> jacobians;  ///< the Jacobian of each step
   Eigen::MatrixXd jacobian;                ///< Jacobian of the whole arc, 2n x 2n
 };
 

@@ -28,7 +28,7 @@ struct ShootingSettings {
 /// A solution of the two-point boundary-value problem.
 struct ShootingSolution {
   DiscreteTrajectory trajectory;
-  std::vector<Eigen::MatrixXd> jacobians;  ///< of each step's map
+  std::vector<Eigen::MatrixXd> jacobians;  ///< the Jacobian of each step's map
   int iterations = 0;
   double residual = 0;        ///< largest residual after the last iteration
   Eigen::Index unknowns = 0;  ///< 2n for each interval, plus the number of multipliers

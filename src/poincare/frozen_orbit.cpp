@@ -41,7 +41,7 @@ FrozenOrbit<Real> find_frozen_orbit(const ZonalGravity& field, const SixNumbers<
   orbit.energy = section.energy();
   orbit.coordinates = section.chief();
   if (from_circle) take_first_order<Real>(field, orbit.energy, orbit.coordinates);
-  const Real unit = sqrt(section.chief()[3]);  // of the pair: sqrt(L) times the eccentricity
+  const Real unit = sqrt(section.chief()[3]);  // the pair's unit: sqrt(L) times the eccentricity
   constexpr int most_iterations = 40;
   constexpr double longest_step = 0.05;  // in eccentricity
   Real least = std::numeric_limits<Real>::max();

@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* remedy = "run the scene again";
 
-constexpr std::uintmax_t small_change = 4096;  ///< of a file's size, in bytes
+constexpr std::uintmax_t small_change = 4096;  ///< a small change of a file's size, in bytes
 
 }  // namespace
 

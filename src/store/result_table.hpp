@@ -173,7 +173,8 @@ class ResultTable {
   }
 
   TableView view_;
-  std::vector<std::function<std::vector<CellValue>(const Row&)>> cells_;  ///< of each column
+  /// The function that makes the cells of each column.
+  std::vector<std::function<std::vector<CellValue>(const Row&)>> cells_;
 };
 
 }  // namespace hamjet::io

@@ -23,7 +23,8 @@ struct LitArc {
   double start = 0;
   double span = 0;
   double unit = 1;
-  std::vector<std::vector<double>> coefficients;  ///< of each component of the state
+  /// The coefficients of each component of the state.
+  std::vector<std::vector<double>> coefficients;
 
   double value(std::size_t component, double time) const {
     const double s = (time - start) / unit;

@@ -68,7 +68,7 @@ class SweepDirectory {
   std::filesystem::path file_of(std::size_t item) const;
 
   std::filesystem::path path_;
-  std::string checksum_;  ///< of the manifest
+  std::string checksum_;  ///< checksum of the manifest
   std::size_t columns_ = 0;
 };
 

@@ -66,7 +66,7 @@ BoxDensity::Node BoxDensity::made(const Box& box, const Density& density) {
   // Gauss's quadrature points, two in each dimension, and the centre.
   std::array<NormalFactor, 9> factors{};
   std::array<double, 9> of_speed{};    // logarithms of the factors of the speeds
-  std::array<double, 9> log_values{};  // of the density
+  std::array<double, 9> log_values{};  // logarithms of the density
   for (std::size_t k = 0; k < 9; ++k) {
     std::array<double, 3> point{};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -153,7 +153,7 @@ struct WeightedSum {
 void add_up(const SampledParts& parts, const std::vector<SampleSums>& sums,
             const CollisionSettings& settings, CollisionProbability& result) {
   WeightedSum all, sure, possible;
-  double lower = 0, upper = 0;  // of plain samples
+  double lower = 0, upper = 0;  // the interval that plain samples give
   double variance_of_change = 0;
   std::vector<double> by_time(time_count, 0.0);
   for (std::size_t k = 0; k < parts.size(); ++k) {

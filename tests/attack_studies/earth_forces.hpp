@@ -27,7 +27,7 @@ struct DensityPiece {
 struct Air {
   std::vector<std::vector<DensityPiece>> profiles;
   Real drag_m2_kg;  ///< C_D A / m times the factor of all densities
-  int exponent;     ///< of the bulge's cosine
+  int exponent;     ///< the exponent of the bulge's cosine
 };
 
 /// Drag is -rate |v - wind| (v - wind) per unit of mass.
@@ -43,7 +43,7 @@ enum class Axes { itrf, eme2000, mod, tod };
 
 /// A row of finals2000A, with angles in radians.
 struct OrientationRow {
-  Real time_s;  ///< of the beginning of its day of UTC, after the epoch
+  Real time_s;  ///< when its day of UTC begins, after the epoch
   Real ut1_minus_tt_s;
   Real pole_x, pole_y, offset_x, offset_y;
 };

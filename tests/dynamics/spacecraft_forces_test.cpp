@@ -20,8 +20,8 @@ namespace {
 
 using Triple = std::array<double, 3>;
 
-constexpr double rate = 0.06;  // of the axes and of the air, in canonical units
-constexpr double tilt = 0.3;   // of the axis, so that no component of it vanishes
+constexpr double rate = 0.06;  // the rate of the axes and of the air, in canonical units
+constexpr double tilt = 0.3;   // the tilt of the axis, so that no component of it vanishes
 constexpr double lag = 0.5;
 
 double inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -21,7 +21,7 @@ namespace {
 
 using test::Numbers;
 
-constexpr double tilt = 0.3, rate = 0.06;  // of the axes and of the air
+constexpr double tilt = 0.3, rate = 0.06;  // the tilt and the rate of the axes and of the air
 constexpr double J2 = 1.1e-3, J3 = -2e-5, radius = 0.95;
 constexpr double lowest_km = 100, density = 0.3, scale_height_km = 120;
 constexpr double mu_unit = 4;  // mu as a parameter is 4, in a unit of which one is 1/4

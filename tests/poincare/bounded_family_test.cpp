@@ -115,7 +115,7 @@ TEST(BoundedFamilyAtLength, StaysOverAThousandRevolutionsFlownIndependently) {
 TEST(BoundedFamilyAtLength, StaysWithEccentricChiefsFlownIndependently) {
   struct Case {
     ChiefOrbit orbit;
-    double phase;  ///< of the difference of the eccentricity vectors
+    double phase;  ///< the phase of the difference of the eccentricity vectors
   };
   for (const Case& one : {Case{in_egm96(orbit_of(26600, 0.74, 63.4, 0, 270, 0)), 1.6},
                           Case{in_egm96(orbit_of(24400, 0.73, 7, 0, 180, 0)), 1.5}}) {

@@ -25,7 +25,8 @@ class IndependentFlight {
     namespace odeint = boost::numeric::odeint;
     const auto slope = [&](const State& z, State& dz, long double) { derivative(z, dz); };
     const auto stepper = odeint::make_controlled(
-        tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<State, long double, State, long double>());
+        tolerance_, tolerance_,
+        odeint::runge_kutta_fehlberg78<State, long double, State, long double>());
     odeint::integrate_adaptive(stepper, slope, state, 0.0L, time, time / 100);
     return state;
   }
@@ -37,7 +38,7 @@ class IndependentFlight {
     long double radial = -field_.mu / (r * r);
     long double axial = 0;
     long double before = 1, legendre = s;     // P_(n-1), P_n
-    long double slope_before = 0, slope = 1;  // their derivatives
+    long double slope_before = 0, slope = 1;  // the derivatives of both
     long double power = field_.mu * field_.radius / (r * r * r);
     for (int n = 2; n <= 6; ++n) {
       const long double next = ((2 * n - 1) * s * legendre - (n - 1) * before) / n;

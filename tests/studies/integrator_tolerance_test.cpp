@@ -39,8 +39,8 @@ struct Integration {
   FlowJet<double> jet;
   long steps = 0;
   double energy_error = 0;   ///< the largest along the nominal
-  double largest_state = 0;  ///< of |z_i|, along the nominal
-  double largest_slope = 0;  ///< of the sum of |dH/dz_i|, along the nominal
+  double largest_state = 0;  ///< the largest |z_i| along the nominal
+  double largest_slope = 0;  ///< the largest sum of |dH/dz_i| along the nominal
 };
 
 /// A jet of order 2 over one period, or back from where it led to.

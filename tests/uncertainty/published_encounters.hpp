@@ -19,9 +19,9 @@ struct PublishedEncounter {
   int number = 0;
   double length_m = 1, time_s = 1;
   double approach_s = 0;  ///< from the epoch to the closest approach of the means
-  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};  ///< of order 3
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};  ///< a problem of order 3
   double probability = 0;                                      ///< from 1e8 samples
-  double lower = 0;                                            ///< its 95 % interval
+  double lower = 0;  ///< the 95 % interval of the probability
   double upper = 0;
   std::optional<double> short_encounter;  ///< by the integral in the plane of encounter
 };

@@ -18,9 +18,9 @@ namespace hamjet::test {
 /// first spacecraft's distance and mu = 1. Both states are Gaussian in Poincaré's elements.
 struct RealEncounter {
   int number = 0;
-  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};  ///< of order 3
+  EncounterProblem problem{kepler(), {}, ClockTime::epoch()};  ///< a problem of order 3
   double probability = 0;                                      ///< from plain samples
-  double lower = 0;                                            ///< its 95 % interval
+  double lower = 0;  ///< the 95 % interval of the probability
   double upper = 0;
 };
 

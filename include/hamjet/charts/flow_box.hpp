@@ -99,7 +99,7 @@ class FlowBoxPropagation {
   FlowProblem<Real> flow_;
   Series<Real> periods_;
   Real reached_ = 0;
-  std::optional<double> step_tolerance_;  ///< that was chosen for a part
+  std::optional<double> step_tolerance_;  ///< the tolerance that was chosen for a part
   double tried_ = 0;                      ///< length of this part
   IntegrationStatistics total_;
 };

@@ -14,9 +14,10 @@ namespace hamjet {
 
 /// A body that disturbs an orbit about another one: the Sun or the Moon.
 struct DisturbingBody {
-  double mu = 0;                                 ///< gravitational parameter
-  std::shared_ptr<const LocalField> potential;   ///< mu/r about its own centre
-  std::shared_ptr<const TimeFunction> position;  ///< of its centre from the central body's
+  double mu = 0;                                ///< gravitational parameter
+  std::shared_ptr<const LocalField> potential;  ///< mu/r about its own centre
+  /// The position of its centre from the central body's.
+  std::shared_ptr<const TimeFunction> position;
 };
 
 /// The pressure of the Sun's radiation on a sphere (cannonball): an acceleration
@@ -28,7 +29,7 @@ struct DisturbingBody {
 /// Source: Montenbruck and Gill, Satellite Orbits, section 3.4.
 struct RadiationPressure {
   std::shared_ptr<const LocalField> potential;  ///< k/r about the Sun
-  std::shared_ptr<const TimeFunction> sun;      ///< its position s
+  std::shared_ptr<const TimeFunction> sun;      ///< the Sun's position s
   std::shared_ptr<const TimeFunction> light;    ///< from 0 to 1; null without shadows
   SpacecraftCoefficient coefficient;            ///< C
 };
@@ -47,11 +48,12 @@ struct GravityOfTurningBody {
   std::shared_ptr<const TimeFunction> axes;     ///< R, row after row: from inertial to fixed axes
   std::vector<DisturbingBody> others;
   std::optional<RadiationPressure> radiation = {};
-  std::vector<FieldVariation> variations = {};  ///< of the body's field
+  std::vector<FieldVariation> variations = {};  ///< the variations of the body's field
   /// What U and its variations are multiplied by, in a unit of its own: mu may be a parameter.
   SpacecraftCoefficient scale = {1};
   Extended unit_of_scale = 1;
-  std::size_t parameters = 0;  ///< of the system, which the coefficients may name
+  /// The number of parameters of the system, which the coefficients may name.
+  std::size_t parameters = 0;
 };
 
 /// The system in z = (x, y, z, p_x, p_y, p_z), inertial axes about the body's centre, momenta per

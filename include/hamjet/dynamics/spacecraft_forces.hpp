@@ -32,11 +32,11 @@ struct SpacecraftCoefficient {
 struct TurningAtmosphere {
   std::shared_ptr<const LocalField> least;     ///< rho_0, in axes that are fixed to the body
   std::shared_ptr<const LocalField> greatest;  ///< rho_1; null for an atmosphere without a bulge
-  std::shared_ptr<const TimeFunction> sun;     ///< its position, for the bulge
+  std::shared_ptr<const TimeFunction> sun;     ///< the Sun's position, for the bulge
   double lag = 0;                              ///< radians
   int exponent = 4;                            ///< n, even and positive
   double rate = 0;                             ///< angular velocity about the third fixed axis
-  SpacecraftCoefficient factor = {1};          ///< of all densities
+  SpacecraftCoefficient factor = {1};          ///< a factor of all densities
 };
 
 /// The system with the drag

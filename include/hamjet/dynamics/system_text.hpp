@@ -17,7 +17,7 @@ namespace hamjet {
 /// the states, and a jet in these variables is that of the vector field.
 struct SystemText {
   std::vector<std::string> coordinates = {};
-  std::vector<std::string> momenta = {};  ///< of the coordinates, in their order
+  std::vector<std::string> momenta = {};  ///< the momenta of the coordinates, in their order
   std::vector<std::string> states = {};   ///< empty for a Hamiltonian
   std::vector<NamedText> parameters = {};
   /// Names of those parameters with which states end; the others are constants, or depend on these.

@@ -48,7 +48,7 @@ struct TransferPoint {
   double position_condition = 0;
   /// Distance in canonical time to the nearest singularity of F1; absent if there is none.
   std::optional<double> singular_distance;
-  bool is_near_singular = false;        ///< that distance is less than the scene's margin
+  bool is_near_singular = false;        ///< whether that distance is less than the scene's margin
   std::vector<TransferAnswer> answers;  ///< answers of the orders 1..N
   std::optional<TransferAnswer> refined;
   int refinement_flights = 0;
@@ -63,7 +63,7 @@ struct TransferPoint {
   /// The least distance from the centre along that way, in canonical units; absent if the scene's
   /// check `surface` is off or the model has no radius.
   std::optional<double> lowest;
-  bool is_below_surface = false;  ///< that distance is less than the check allows
+  bool is_below_surface = false;  ///< whether that distance is less than the check allows
   RelativeState arrived;          ///< state after the second velocity change, in the scene's frame
   /// The drift of the deputy after its arrival if nothing is done; absent if it was not found.
   std::optional<RelativeDrift> drift;

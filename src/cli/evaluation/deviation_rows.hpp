@@ -38,7 +38,7 @@ class DeviationRows {
   const EvalOptions& options_;
   const EvalCoordinates& coordinates_;
   std::optional<io::InputStream> input_;
-  std::optional<io::NumberTableReader> reader_;  ///< of the input
+  std::optional<io::NumberTableReader> reader_;  ///< the reader of the input
   io::NumberTable row_;                          ///< the only one, without an input
   std::vector<double> parameters_;               ///< of the deputy, behind positions and momenta
   bool is_at_end_ = false;

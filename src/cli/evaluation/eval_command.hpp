@@ -22,7 +22,7 @@ struct EvalOptions {
   std::optional<std::string> run;         ///< label of the integrator's run
   std::vector<std::string> overrides;     ///< key=value, of the scene
   EvalFrames frames;
-  std::optional<std::string> time;     ///< of the jets: seconds between commas, or all
+  std::optional<std::string> time;     ///< times of the jets: seconds between commas, or all
   std::optional<int> degree;           ///< truncates the jet
   std::optional<std::size_t> threads;  ///< absent: as many as the process may use
   std::optional<std::string> output;   ///< CSV file; absent: standard output

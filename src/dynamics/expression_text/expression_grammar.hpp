@@ -14,13 +14,13 @@ struct ExpressionToken {
   TokenKind kind = TokenKind::number;
   std::size_t begin = 0;
   std::size_t length = 0;
-  std::size_t arguments = 0;  ///< of a call
+  std::size_t arguments = 0;  ///< the number of arguments of a call
 };
 
 /// Where a text stops being an expression, what is wrong there, and what would be right.
 struct SyntaxProblem {
   std::size_t place = 0;
-  std::size_t length = 0;  ///< of what is wrong; 0 for the end of the text
+  std::size_t length = 0;  ///< the length of what is wrong; 0 for the end of the text
   std::string_view what;
   std::string_view right;
 };

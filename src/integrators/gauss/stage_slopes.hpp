@@ -374,7 +374,7 @@ class StageSlopes {
 
   StageSystem<Real, Lanes> system_;
   ComponentUnits units_;
-  Real inverse_sigma_ = 1;  ///< of the stages, see ComponentUnits
+  Real inverse_sigma_ = 1;  ///< the inverse sigma of the stages, see ComponentUnits
   OperationList list_;
   SliceEvaluator<P, Real> evaluator_;
   SpacePointer space_;

@@ -73,8 +73,9 @@ class RotationReduction {
   };
 
   std::vector<std::array<std::size_t, 2>> planes_;
-  std::vector<std::size_t> rotated_;         ///< rotated coordinates, plane by plane
-  std::vector<std::size_t> rotated_places_;  ///< their places among the variables
+  std::vector<std::size_t> rotated_;  ///< rotated coordinates, plane by plane
+  /// The places of the rotated variables among all variables.
+  std::vector<std::size_t> rotated_places_;
   std::vector<std::size_t> passive_places_;  ///< places of the other variables
   std::size_t section_;                      ///< place in `rotated_` of the first coordinate of y
   Numbers scales_;                           ///< scales of the rotated coordinates

@@ -93,7 +93,7 @@ struct Chart {
   ChartAxis x;
   ChartAxis y;
   std::optional<ChartMap> map;  ///< behind the curves
-  std::string value_label;      ///< of the colours of the curves' values
+  std::string value_label;      ///< the label of the values that the curves' colours stand for
   std::vector<ChartCurve> curves;
   std::vector<ChartCurve> at_limit;  ///< below a logarithmic axis, and put at its limit
   std::vector<ChartRule> rules;

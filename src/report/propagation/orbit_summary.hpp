@@ -19,10 +19,10 @@ struct OrbitPoint {
 struct OrbitSummary {
   OrbitPoint start;
   OrbitPoint perigee;
-  std::optional<OrbitPoint> apogee;  ///< of an ellipse
+  std::optional<OrbitPoint> apogee;  ///< the apogee of an ellipse
   double eccentricity = 0;
   double inclination_deg = 0;
-  std::optional<double> period_s;     ///< of an ellipse
+  std::optional<double> period_s;     ///< the period of an ellipse
   std::optional<double> revolutions;  ///< periods in the duration, whatever its sign
   double lowest_km = 0;               ///< smallest distance from the centre within the duration
   /// Mean elements of the start, with the mean anomaly, where J2 makes them others than the

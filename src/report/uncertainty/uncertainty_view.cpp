@@ -41,7 +41,7 @@ Eigen::Index worst_component(const std::vector<Cumulants>& by_order) {
 struct Combination {
   double position_m = 0;    ///< how far one linear standard deviation of it is, at most
   double velocity_m_s = 0;  ///< the same of the velocity
-  double ratio = 1;         ///< of its standard deviation by all orders to the linear one
+  double ratio = 1;         ///< its standard deviation by all orders over the linear one
 };
 
 /// None where the linear covariance vanishes.

@@ -85,12 +85,12 @@ struct BoundedFormation {
   double nodal_period = 0;              ///< canonical
   double mean_period = 0;               ///< over the window
   double mean_node = 0;                 ///< radians a revolution
-  int revolutions = 0;                  ///< of the window
+  int revolutions = 0;                  ///< the number of revolutions of the window
   std::vector<BoundedDeputy> deputies;  ///< by size, then rule
   std::optional<BoxControl> box;        ///< where the scene has a table [bounded.box]
   double seconds = 0;                   ///< of all
   double flight_seconds = 0;
-  std::vector<SelfCheck> checks;  ///< of the chief's flight over the window
+  std::vector<SelfCheck> checks;  ///< checks of the chief's flight over the window
 };
 
 /// Finds, for each size of the scene's table [bounded], a deputy by each rule, and flies it beside

@@ -63,10 +63,10 @@ class CompanyFlight {
   double mean_period_;
   double cosine_;
   double semi_major_axis_;
-  std::vector<double> times_;          ///< of a tenth of the window, then of the window
+  std::vector<double> times_;          ///< times of a tenth of the window, then of the window
   std::vector<std::size_t> in_tenth_;  ///< places among them
   std::vector<std::size_t> in_window_;
-  std::vector<double> steps_of_orbit_;      ///< of one revolution
+  std::vector<double> steps_of_orbit_;      ///< the steps of one revolution
   std::vector<std::vector<double>> chief_;  ///< at the times
   std::vector<std::vector<double>> chief_first_;
   std::vector<std::vector<double>> chief_last_;

@@ -31,10 +31,10 @@ struct EventStudy {
   double position_rounding_m = 0;   ///< rounding of a flown position: a smaller miss says nothing
   int flown = 0;                    ///< deputies of each amplitude
   std::vector<EventMisses> misses;  ///< by amplitude, as in the scene
-  std::vector<SelfCheck> checks = {};  ///< of the chief's flight to the event
+  std::vector<SelfCheck> checks = {};  ///< checks of the chief's flight to the event
 
   double time_s() const { return map.time[0] * scene.units.time_s; }
-  std::vector<double> state() const;  ///< of the chief at the event, canonical
+  std::vector<double> state() const;  ///< the chief's state at the event, canonical
   EventMap<double> told_map() const;  ///< in the units that the user is told, see told_units
 };
 

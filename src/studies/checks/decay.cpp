@@ -96,7 +96,7 @@ class DecayFlight {
   }
 
   bool is_safe(const std::vector<double>& state, double drag_m2_kg) const {
-    constexpr double margin_km = 25;  // of the perigee's height, for what the field moves
+    constexpr double margin_km = 25;  // a margin of the perigee's height, for what the field moves
     constexpr double safe_fall_km = 5;
     const auto perigee = perigee_height_km(scene_, state);
     if (!perigee || !(*perigee - margin_km > limit_km_ + margin_km)) return false;

@@ -12,7 +12,7 @@ namespace hamjet {
 struct ForceSize {
   std::string name;         ///< for people: "tesseral harmonics", "Sun", ...
   std::string key;          ///< how a scene leaves it out: "gravity_order = 0", ...
-  double largest_m_s2 = 0;  ///< its largest acceleration along the chief's orbit
+  double largest_m_s2 = 0;  ///< the force's largest acceleration along the chief's orbit
   double chief_m = 0;       ///< the largest change of the chief's position without it
   /// The largest change of the deputy's position relative to the chief; no value without a deputy.
   std::optional<double> relative_m = {};

@@ -24,7 +24,7 @@ inline constexpr int most_gauss_stages = 12;
 /// A key of `[[integrator]]` that only some methods have.
 struct MethodSetting {
   std::string_view key;           ///< the name of the member
-  std::string_view column = key;  ///< its name in comparisons
+  std::string_view column = key;  ///< the method's name in comparisons
   std::string_view help = {};     ///< what it is, for people
   std::variant<int IntegratorSettings::*, double IntegratorSettings::*, bool IntegratorSettings::*>
       member;

@@ -25,8 +25,9 @@ class CompanionFlow : public LinearFlow {
   std::vector<double> chief_deviation(double time) const;
 
  private:
-  std::unique_ptr<const ComputedProblem> chief_problem_;  ///< of a chief unlike the deputy
-  std::unique_ptr<const LinearFlow> chief_;               ///< likewise
+  /// The problem of a chief unlike the deputy.
+  std::unique_ptr<const ComputedProblem> chief_problem_;
+  std::unique_ptr<const LinearFlow> chief_;  ///< likewise
 };
 
 /// Flights of a chief and of its deputy in one system, whose states end with the coefficients in

@@ -36,7 +36,7 @@ double rounding_of_flights(const Matrix<double>& linear, std::span<const double>
 }
 
 double rounding_of_flights(const ComputedProblem& problem, double time) {
-  constexpr double tolerance = 1e-10;  // of a scale, for which two digits would do
+  constexpr double tolerance = 1e-10;  // the tolerance of a scale, for which two digits would do
   return rounding_of_flights(
       problem, linear_jet(problem.system, problem.nominal, problem.start_time, time, tolerance));
 }

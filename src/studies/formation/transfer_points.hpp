@@ -112,7 +112,7 @@ class TransferPoints {
   bool has_orbit_;
   TransferSeconds& seconds_;
   FlownTogether both_;
-  ComputedProblem problem_;                        ///< of spacecraft like the deputy
+  ComputedProblem problem_;                        ///< the problem of spacecraft like the deputy
   std::optional<ComputedProblem> linear_problem_;  ///< see jet_problem
   std::optional<CompanionFlow> flow_;
   std::vector<GeneratingFunctionKind> kinds_;

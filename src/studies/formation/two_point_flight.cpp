@@ -17,7 +17,7 @@ TwoPointFlight fly_between(const SharedSystem& system, std::vector<double> guess
                            double duration, double most_miss) {
   constexpr int most_flights = 20;
   constexpr double singular = 1e-10;
-  constexpr double tolerance = 1e-12;  // of the derivatives
+  constexpr double tolerance = 1e-12;  // the tolerance of the derivatives
   TwoPointFlight flight;
   flight.start = std::move(guess);
   try {

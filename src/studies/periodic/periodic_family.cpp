@@ -28,7 +28,7 @@ constexpr double least_cosine = 0.8;
 struct Followed {
   PeriodicOrbit orbit;
   LinearShooting linear;
-  Vector<double> tangent;  ///< of length 1, in parts of the sizes
+  Vector<double> tangent;  ///< the tangent, of length 1 in parts of the sizes
 };
 
 class FamilyFollower {

@@ -143,7 +143,7 @@ std::vector<StabilityCase> flow_box_cases() {
 
 MeasuredError flow_box_error(const FlowBoxCase& subject) {
   constexpr int order = 2;
-  constexpr double size = 1e-7;  // of the deputies' distances and speeds, relative to the chief's
+  constexpr double size = 1e-7;  // the deputies' distances and speeds over those of the chief
   const SixNumbers<double>& start = subject.start;
   GaussSettings settings;
   settings.tolerance = 1e-13;

@@ -92,7 +92,7 @@ struct UncertaintyResult {
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   std::optional<CollisionResult> collision;          ///< if the scene asks for it
   std::optional<SafetyResult> safety;                ///< likewise
-  std::vector<SelfCheck> checks;                     ///< of the flights of chief and deputy
+  std::vector<SelfCheck> checks;                     ///< checks of the flights of chief and deputy
   double propagation_seconds = 0;
   double moments_seconds = 0;
   double flight_seconds = 0;

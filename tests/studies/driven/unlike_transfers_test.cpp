@@ -130,7 +130,7 @@ TEST(UnlikeTransfers, ChangesOfVelocityDifferByWhatDragDoes) {
   const double density = 6.967e-13 * std::pow(1.454 / 6.967, 0.14);
   const double radius_m = position_of(scene.nominal).norm() * scene.units.length_km * 1000;
   const double rate = 2 * std::numbers::pi / period_s(scene);
-  const double speed = radius_m * (rate - 7.292115e-5);  // of the air, eastwards
+  const double speed = radius_m * (rate - 7.292115e-5);  // the speed of the air, eastwards
   const double f = 0.5 * 0.02 * chief_drag * density * speed * speed;
   const double t = time_s;
   const TransferAnswer& answer = point.best();

@@ -47,8 +47,8 @@ struct ProductSchedule {
 
   static constexpr std::uint32_t no_diagonal = UINT32_MAX;
 
-  std::size_t multiply_adds = 0;         ///< of the interior product
-  std::size_t square_multiply_adds = 0;  ///< of the interior square
+  std::size_t multiply_adds = 0;         ///< the multiply-adds of the interior product
+  std::size_t square_multiply_adds = 0;  ///< the multiply-adds of the interior square
 };
 
 /// Number of monomials of degree m in three variables.

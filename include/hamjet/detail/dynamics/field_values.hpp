@@ -191,7 +191,7 @@ class FieldValues {
   };
   struct Field {
     std::vector<Part> parts;
-    std::vector<int> degrees;  ///< of the monomials of its products
+    std::vector<int> degrees;  ///< the degrees of the monomials of its products
     std::size_t group = 0;
     std::size_t place = 0;  ///< in its group
   };
@@ -202,7 +202,7 @@ class FieldValues {
     std::size_t fields = 0;
     std::vector<std::size_t> first =
         {};                         ///< by coordinate, its first product, and one entry for the end
-    std::vector<int> degrees = {};  ///< of the factors of the products
+    std::vector<int> degrees = {};  ///< the degrees of the factors of the products
     std::vector<T> coefficients = {};  ///< by product and field
     std::vector<T> cofactors = {};     ///< by coordinate and field
   };

@@ -80,8 +80,8 @@ struct Operation {
   Extended constant = 0;
   std::vector<LinearTerm> terms = {};
   std::shared_ptr<const TimeFunction> time_function = {};
-  std::size_t component = 0;          ///< of the time function
-  std::vector<FieldPart> parts = {};  ///< of a field; all have the same deviations
+  std::size_t component = 0;          ///< the component of the time function
+  std::vector<FieldPart> parts = {};  ///< the parts of a field; all have the same deviations
   // Of a field that expand_fields made, whose terms are the coordinates that move:
   std::vector<std::size_t> axes = {};       ///< which coordinate each term is: 0, 1 or 2
   std::vector<FieldProduct> products = {};  ///< by coordinate, then by degree

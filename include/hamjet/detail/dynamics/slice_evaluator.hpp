@@ -446,8 +446,9 @@ class SliceEvaluator {
   std::vector<T> remainders_;  ///< one series per output
   std::vector<T> scratch_;
   std::vector<Real> constants_;
-  std::vector<Step> steps_;  ///< of the operations that are no numbers
-  std::vector<std::vector<const ProductSchedule*>> schedules_;  ///< of products of deviations
+  std::vector<Step> steps_;  ///< the steps of the operations that are no numbers
+  /// The schedules of products of deviations.
+  std::vector<std::vector<const ProductSchedule*>> schedules_;
   std::map<std::pair<const TimeFunction*, std::size_t>, std::vector<T>> time_values_;
   SeriesWork work_;
 };

@@ -7,8 +7,8 @@ namespace hamjet::io {
 /// Where a report comes from: what a reader needs to make it again.
 struct ReportOrigin {
   std::string command;    ///< as it was typed
-  std::string date;       ///< of the run, with time and zone
-  std::string processor;  ///< that the times were taken on
+  std::string date;       ///< the date of the run, with time and zone
+  std::string processor;  ///< the processor that the times were taken on
   /// Used by comparisons only: all that determines the runs, as the caller writes it; a resumption
   /// compares it with its own.
   std::string determinants;

@@ -34,11 +34,11 @@ inline std::string_view name_of(AtmosphereModel model) {
 /// The air of the model `earth`, see TurningAtmosphere.
 struct AtmosphereSettings {
   AtmosphereModel model = AtmosphereModel::harris_priester;
-  double density_factor = 1;                      ///< of all densities
-  int bulge_exponent = 4;                         ///< 2 for low inclinations to 6 for polar orbits
-  std::vector<double> heights_km;                 ///< of a table: at least 4, increasing
-  std::vector<double> densities_kg_m3;            ///< there, positive
-  std::string density_file;                       ///< of the table, as in the scene; may be empty
+  double density_factor = 1;            ///< a factor of all densities
+  int bulge_exponent = 4;               ///< 2 for low inclinations to 6 for polar orbits
+  std::vector<double> heights_km;       ///< the heights of a table: at least 4, increasing
+  std::vector<double> densities_kg_m3;  ///< there, positive
+  std::string density_file;             ///< the file of the table, as in the scene; may be empty
   std::shared_ptr<const DensityProfile> profile;  ///< through the table
 };
 
@@ -75,14 +75,16 @@ struct RadiationSettings {
 struct EarthSettings {
   int degree = 20;
   int order = 20;
-  std::shared_ptr<const SphericalHarmonicCoefficients> field;  ///< of at least degree and order
+  /// A field of at least this degree and order.
+  std::shared_ptr<const SphericalHarmonicCoefficients> field;
   bool has_sun = true;
   bool has_moon = true;
-  double mu_sun_km3_s2 = 132712440041.27942;  ///< of DE440 (Park et al., Astron. J. 161:105, 2021)
-  double mu_moon_km3_s2 = 4902.800118;        ///< likewise
+  /// The value of DE440 (Park et al., Astron. J. 161:105, 2021).
+  double mu_sun_km3_s2 = 132712440041.27942;
+  double mu_moon_km3_s2 = 4902.800118;  ///< likewise
   std::string epoch_tt;              ///< the moment at which the scene's clock is 0, ISO 8601 in TT
   std::string orientation_file;      ///< as in the scene; empty without one
-  std::string orientation_checksum;  ///< of the file's content
+  std::string orientation_checksum;  ///< the checksum of the file's content
   std::shared_ptr<const EarthOrientation> orientation;  ///< null without a file
   std::optional<AtmosphereSettings> atmosphere;         ///< absent if there is no drag
   double drag_m2_kg = 0;                                ///< C_D A / m of the chief

@@ -25,9 +25,9 @@ struct EnergyOptimalAnswer {
 /// The thrust that leads a deputy from its start to its end, in position and velocity, in one time
 /// with the least integral of |u|^2 / 2, u being its acceleration.
 struct EnergyOptimalTransfer {
-  double time = 0;                           ///< in canonical units
-  double condition = 0;                      ///< of the linear part that is inverted, dx/dlambda0
-  std::vector<EnergyOptimalAnswer> answers;  ///< of the orders 1..N
+  double time = 0;       ///< in canonical units
+  double condition = 0;  ///< the condition of the linear part that is inverted, dx/dlambda0
+  std::vector<EnergyOptimalAnswer> answers;  ///< the answers of the orders 1..N
   /// The answer of order N, corrected by flying until both misses are as small as asked for.
   std::optional<EnergyOptimalAnswer> refined;
   int refinement_flights = 0;

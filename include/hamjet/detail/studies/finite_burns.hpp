@@ -11,7 +11,7 @@ namespace hamjet {
 /// A burn in place of an impulse. Its time is the mean time of its change: its middle, or later as
 /// the mass falls.
 struct FiniteBurn {
-  double time = 0;  ///< of the impulse, in canonical units
+  double time = 0;  ///< the time of the impulse, in canonical units
   double start = 0;
   double end = 0;
   /// Unit vector along the axes of the thruster's attitude.
@@ -46,7 +46,7 @@ struct BurnPlan {
   bool is_found() const { return failure.empty(); }
   double change_m_s() const;
   double loss_m_s() const { return change_m_s() - impulses_m_s; }  ///< of all burns
-  std::optional<double> propellant_kg() const;                     ///< of all burns
+  std::optional<double> propellant_kg() const;                     ///< the propellant of all burns
 };
 
 /// The burns of table `[thruster]`.

@@ -97,7 +97,7 @@ struct TransferSettings {
   double singular_margin = 0;
   TransferImpulses impulses = TransferImpulses::two;
   TransferThrust thrust = TransferThrust::impulses;
-  int thrust_order = 3;  ///< of the jets in states and costates, twelve variables
+  int thrust_order = 3;  ///< the order of the jets in states and costates, twelve variables
   std::optional<double> largest_thrust_m_s2;  ///< largest acceleration that its thruster has
   int feedback = 0;                  ///< instants at which the law of feedback is told; 0 for none
   std::optional<double> budget_m_s;  ///< if given, spans of time are sought in which a transfer
@@ -127,10 +127,10 @@ enum class BurnAttitude {
 
 /// Table `[thruster]`: what makes the velocity changes of `[transfer]`.
 struct ThrusterSettings {
-  double acceleration_m_s2 = 0;         ///< of the full spacecraft
-  std::optional<double> exhaust_m_s;    ///< if absent, the acceleration stays the same
-  double mass_kg = 0;                   ///< of the full spacecraft; used with `exhaust_m_s` alone
-  std::optional<double> propellant_kg;  ///< that is on board; absent if none is counted
+  double acceleration_m_s2 = 0;       ///< the acceleration of the full spacecraft
+  std::optional<double> exhaust_m_s;  ///< if absent, the acceleration stays the same
+  double mass_kg = 0;  ///< the mass of the full spacecraft; used with `exhaust_m_s` alone
+  std::optional<double> propellant_kg;  ///< the propellant on board; absent if none is counted
   std::optional<double> longest_burn_s;
   std::optional<double> shortest_burn_s;
   BurnAttitude attitude = BurnAttitude::rtn;
@@ -207,8 +207,8 @@ struct PeriodicSettings {
   double period = 0;            ///< the guess, in canonical units
   std::string hold = "energy";  ///< "energy", "period" or a variable
   std::optional<double> value;  ///< of what is held, as the scene tells it; absent: the guess's
-  int arcs = 4;                 ///< of multiple shooting
-  double tolerance = 1e-10;     ///< of their mismatch, in parts of the orbit's size
+  int arcs = 4;                 ///< the number of arcs of multiple shooting
+  double tolerance = 1e-10;  ///< the tolerance of the arcs' mismatch, in parts of the orbit's size
   std::optional<PeriodicFamilySettings> family;  ///< absent for one orbit
 };
 

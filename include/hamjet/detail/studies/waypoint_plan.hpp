@@ -50,11 +50,12 @@ struct CoastingTransfer {
 /// A transfer with two impulses that makes another number of revolutions than its chief, or the
 /// same number on the other of two orbits. The polynomials about the chief do not reach it.
 struct RevolutionTransfer {
-  double time = 0;         ///< in canonical units
-  int difference = 0;      ///< number of whole revolutions more than the chief makes
-  bool is_higher = false;  ///< of the two orbits with this number, the one of the longer period
-  WaypointPlan plan;       ///< plan with one leg
-  std::string failure;     ///< if not empty, the reason why the transfer was not found
+  double time = 0;     ///< in canonical units
+  int difference = 0;  ///< number of whole revolutions more than the chief makes
+  /// Whether it is the one of the longer period, of the two orbits with this number.
+  bool is_higher = false;
+  WaypointPlan plan;    ///< plan with one leg
+  std::string failure;  ///< if not empty, the reason why the transfer was not found
 };
 
 /// The results of `revolutions`.

@@ -12,7 +12,7 @@ namespace hamjet {
 
 /// A thruster in canonical units; masses are parts of the full spacecraft.
 struct CanonicalThruster {
-  double acceleration = 0;  ///< of the full spacecraft
+  double acceleration = 0;  ///< the acceleration of the full spacecraft
   /// Speed of the exhaust; infinite if the mass does not fall.
   double exhaust = std::numeric_limits<double>::infinity();
 
@@ -45,7 +45,7 @@ struct BurnSpan {
 class BurnFlight {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
-  using Changes = std::vector<Eigen::Vector3d>;  ///< of all burns, canonical
+  using Changes = std::vector<Eigen::Vector3d>;  ///< the velocity changes of all burns, canonical
 
   /// `burning` is the problem's system with the thrust of the scene's thruster.
   BurnFlight(const Scene& scene, const ComputedProblem& problem, const SharedSystem& burning,
