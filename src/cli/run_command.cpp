@@ -140,7 +140,8 @@ std::string field_text(const SystemSettings& system) {
   for (int n = ZonalCoefficients::lowest; n <= ZonalCoefficients::highest; ++n) {
     if (system.J[n] != 0) text += fmt::format(" J{}", n);
   }
-  if (!file.epoch.empty()) text += fmt::format("; what varies with time is of {}", file.epoch);
+  if (!file.epoch.empty())
+    text += fmt::format("; coefficients that vary with time are taken at {}", file.epoch);
   if (file.origin_offset_m.value_or(0) != 0) {
     text += fmt::format("; its C(1,0), which is left out, puts the centre of mass at z = {:.4g} m",
                         *file.origin_offset_m);

@@ -66,7 +66,7 @@ struct Force {
     const int highest = field.J.highest_present();
     T horizontal(0);  // factor of x and y
     T vertical(0);    // factor of z, of even n
-    T odd(0);         // sum over odd n, of which the product with z belongs to both
+    T odd(0);         // sum over odd n; its product with z belongs to both of these factors
     T axial(0);
     if (highest != 0) {
       const std::vector<T> c = solid_coefficients<T>(field, highest);

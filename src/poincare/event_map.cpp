@@ -126,10 +126,11 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     // At a smaller angle the time of a neighbour is no series but next to the chief.
     constexpr double least_sine = 1e-6;
     if (!(at.sine > Real(least_sine))) {
-      throw Error(ErrorKind::numerical,
-                  fmt::format("event: at {:.10g} canonical the flow only touches the surface, and "
-                              "the time at which neighbours meet it is no series",
-                              static_cast<double>(time)));
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("event: at {:.10g} canonical the flow only touches the surface, so that the "
+                      "time at which neighbours meet it cannot be expanded in a series",
+                      static_cast<double>(time)));
     }
     if (!(abs(step) < Real(0.5) * scale) || i == most_iterations) {
       throw Error(ErrorKind::numerical,

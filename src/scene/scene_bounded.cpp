@@ -40,7 +40,7 @@ const TableDescription& box_table() {
        {"days", form::between(shortest_days, longest_days), absent::value(preset.days),
         "number of days for which the deputy is kept"}},
       "A box in which the scene's `[deputy]` is kept by two impulses each time that it leaves; "
-      "without a deputy one that starts as the reference."};
+      "without a table `[deputy]` a deputy that starts as the reference is kept."};
   return table;
 }
 

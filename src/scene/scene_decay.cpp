@@ -28,12 +28,12 @@ std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene&
   const double perigee_km =
       perigee_height_km(scene, scene.nominal).value_or(std::numeric_limits<double>::infinity());
   if (perigee_km > 0 && perigee_km < least_height_km && !has_decayed) {
-    add("nominal", fmt::format("low, got a perigee {:.4g} km high, should be above {} km: {}",
-                               perigee_km, least_height_km,
-                               scene.system.earth->atmosphere
-                                   ? "the air ends such orbits within days"
-                                   : "the air, which this scene is without, ends such orbits "
-                                     "within days"));
+    add("nominal",
+        fmt::format("low, got a perigee {:.4g} km high, should be above {} km: {}", perigee_km,
+                    least_height_km,
+                    scene.system.earth->atmosphere
+                        ? "the air ends such orbits within days"
+                        : "the air, which this scene leaves out, ends such orbits within days"));
   }
   return warnings;
 }

@@ -39,8 +39,8 @@ const TableDescription& event_table() {
         "distances from the chief of deputies that are flown to see how far the polynomials hold; "
         "their velocities differ by as much times the mean motion"}},
       "A condition along the orbit: the time at which it holds and the state then, as polynomials "
-      "of "
-      "the initial state, which with a surface that the orbit comes back to are its Poincaré map."};
+      "of the initial state. If the condition is a surface that the orbit comes back to, these "
+      "polynomials are its Poincaré map."};
   return table;
 }
 

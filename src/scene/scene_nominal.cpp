@@ -96,9 +96,9 @@ const TableDescription& units_table() {
         absent::refused(),
         "what a time of 1 means",
         {description_of(SystemModel::own).name}}},
-      "Canonical numbers are read and told in it. `run` and `compare` compute in it, all else in "
-      "the "
-      "chief's own: its distance at the start. The numbers of a model `own` are in units of "
+      "Canonical numbers are read and given in this unit of length. `run` and `compare` compute in "
+      "it; everything else computes in the chief's own unit, its distance at the start. The "
+      "numbers of a model `own` are in units of "
       "`length_km` and `time_s`, without this table in metres and seconds."};
   return table;
 }

@@ -146,7 +146,8 @@ const TableDescription& end_table() {
 const TableDescription& waypoint_table() {
   static const TableDescription table = {
       joined<SceneKey>({instant_keys(), {axes_keys().front()}}),
-      "In the frame of `[transfer]`, relative to where the chief is then; an impulse is there."};
+      "In the frame of `[transfer]`, relative to where the chief is then; the deputy makes an "
+      "impulse at this place."};
   return table;
 }
 

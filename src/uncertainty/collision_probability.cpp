@@ -17,8 +17,8 @@
 namespace hamjet {
 namespace {
 
-/// The relative standard error that fewer than a hundred draws with all of the weight would have:
-/// such draws say nothing of the collisions that they have missed.
+/// The relative standard error of a mean in which a hundred draws have all of the weight. Fewer
+/// draws say nothing of the collisions that they have missed.
 constexpr double few_draws = 0.1;
 /// What comes before the samples of one of so many parts. With too few boxes a few draws have all
 /// of the weight.

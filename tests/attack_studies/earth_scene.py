@@ -50,7 +50,8 @@ class EarthScene(Scene):
         self.axes_name = draw.one_of(["GCRF", "EME2000", "MOD", "TOD", "ITRF"], [3, 2, 1, 3, 4])
         if self.axes_name != "GCRF" or draw.chance(0.3):
             nominal["axes"] = self.axes_name
-        # Turning elements have the speeds of no orbit.
+        # In axes that turn with the Earth velocities are not those of an orbit, so that there are
+        # no elements.
         self.has_elements = self.axes_name != "ITRF"
         orientation = None
         if draw.chance(0.5):

@@ -11,8 +11,8 @@ from flight import REAL, TOLERANCE
 from refusal import judge_refusal
 
 ROWS = 14
-# An estimate is one of the size of what is left out; a deviation along which the last degrees
-# happen to cancel is allowed this much more.
+# An estimate says only how large the part is that is left out. Along a deviation for which the last
+# degrees happen to cancel, an error may be this many times larger.
 ESTIMATE = 10
 
 LINEAR = {"RTN": ["R_m", "T_m", "N_m", "vR_m_s", "vT_m_s", "vN_m_s"],

@@ -64,9 +64,9 @@ TEST_F(GravityFile, ThatVariesWithTimeIsTakenAtTheEpoch) {
               std::sqrt(3.0) * 6378136.3e-9, 1e-15);
   const std::string check =
       in_one_line(succeed(with_overrides({"check", "scenes/scene.toml"}, overrides)).out);
-  for (const char* words :
-       {"field EGM96 (tide_free) from ../field.gfc: J2 J3 J4 J5 J6",
-        "what varies with time is of 2020-12-31T06:00:00", "the centre of mass at z = 0.01105 m"}) {
+  for (const char* words : {"field EGM96 (tide_free) from ../field.gfc: J2 J3 J4 J5 J6",
+                            "coefficients that vary with time are taken at 2020-12-31T06:00:00",
+                            "the centre of mass at z = 0.01105 m"}) {
     EXPECT_NE(check.find(words), std::string::npos) << check;
   }
   expect_error(

@@ -173,7 +173,8 @@ TEST(DragFlow, TheUnitOfLengthChangesNoStep) {
     const auto [steps, jet] = fly(natural, in_lanes);
     for (const double length : {0x1p-30, 0x1p-6, 0x1p10, 0x1p30}) {
       const auto [other_steps, other] = fly(slowed_ellipse(length), in_lanes);
-      // Rounding of the measures may take a step from one side to the other.
+      // A step that is accepted in one unit may be refused in another by rounding of its measures
+      // alone.
       EXPECT_NEAR(static_cast<double>(other_steps), static_cast<double>(steps), 1) << length;
       for (std::size_t i = 0; i < 6; ++i) {
         const double unit = i < 3 ? length : 1 / std::sqrt(length);

@@ -97,8 +97,8 @@ TEST(TimeReduction, IsTheFlow) {
     EXPECT_EQ(reduced.left_out, one.left_out);
     for (int d = 0; d <= 3; ++d) {
       const double error = test::relative_error(whole.jet, finer.jet, d);
-      // Errors of other coefficients; a part of the speed of 1/4 or more, to the third power,
-      // is 64.
+      // The reduced jet has the errors of other coefficients. They are divided by a part of the
+      // speed that is 1/4 or more, up to three times, which is a factor of 64.
       EXPECT_LE(test::relative_error(reduced.jet, finer.jet, d), 64 * error) << d;
     }
   }

@@ -1,4 +1,4 @@
-"""Assignments: equal to what the command writes."""
+"""Assignments from Python are equal to those that the command writes."""
 
 import csv
 import io

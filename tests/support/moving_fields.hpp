@@ -118,7 +118,7 @@ class Turning final : public TimeFunction {
   double size_;
 };
 
-/// One by one: g++ 12 warns of a list of them.
+/// The masses are added one by one, because g++ 12 warns of a list of masses.
 inline std::vector<PointMass> three_masses() {
   std::vector<PointMass> masses;
   masses.push_back({0.9, {0, 0, 0}});

@@ -15,9 +15,10 @@ class EarthAttitude;
 class EarthRotation final : public TimeFunction {
  public:
   /// Times are counted from `epoch`, in `unit_s` seconds of TT, and go from `first` to `last`, in
-  /// either order; a quarter of a day beyond is allowed. Without a table of orientation, see
-  /// EarthOrientation::without_table. Throws Error(input_output) if the table does not have the
-  /// span, Error(usage), without one, for an epoch before 1960, and Error(too_large).
+  /// either order; a quarter of a day beyond is allowed. What holds without a table of orientation
+  /// is said at EarthOrientation::without_table. Throws Error(input_output) if the table does not
+  /// have the span, Error(usage) for an epoch before 1960 if there is no table, and
+  /// Error(too_large).
   EarthRotation(const Instant& epoch, const Extended& unit_s, double first, double last,
                 std::shared_ptr<const EarthOrientation> orientation = nullptr);
   ~EarthRotation() override;

@@ -38,7 +38,7 @@ struct RadiationPressure {
 /// field is linear in each of its coefficients.
 struct FieldVariation {
   std::shared_ptr<const LocalField> potential;  ///< in axes that are fixed to the body
-  SpacecraftCoefficient coefficient;            ///< c, whose `value` is the nominal
+  SpacecraftCoefficient coefficient;            ///< c; its `value` is that of the nominal
 };
 
 /// The gravity that acts on a satellite of a body that turns. All units are the caller's, times

@@ -10,7 +10,8 @@
 namespace hamjet {
 
 /// A function of the state that vanishes at an event: a height over a plane, a distance less a
-/// radius, the product of position and velocity (an apsis). It is asked for series alone.
+/// radius, the product of position and velocity (an apsis). The function is only evaluated on
+/// series.
 template <class Real>
 using EventCondition = std::function<Series<Real>(const SixNumbers<Series<Real>>&)>;
 

@@ -12,8 +12,8 @@ namespace hamjet::io {
 template <>
 StudyReport study_report(const CanonicalTransformationResult& result, Figure figure);
 
-/// `trajectory.csv`, `figure.svg` with the energy errors and the step size along time,
-/// `summary.json`.
+/// Writes `trajectory.csv`, `summary.json`, and `figure.svg` with the energy errors and the step
+/// size along time.
 template <>
 StudyReport study_report(const EnergyConservationResult& result, Figure figure);
 

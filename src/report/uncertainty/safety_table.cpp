@@ -81,10 +81,10 @@ TableView safety_table(const SafetyResult& result) {
       .add("flights", "", "the number of samples that were flown with the full equations",
            of_separations(&LeastSeparations::flights))
       .is_in_csv = false;
-  table.add(
-      "flight_difference_m", "m",
-      "the largest difference of the least separations between these flights and the polynomials",
-      of_separations(&LeastSeparations::flight_difference));
+  table.add("flight_difference_m", "m",
+            "the largest difference between the least separations of these flights and those of "
+            "the polynomials",
+            of_separations(&LeastSeparations::flight_difference));
 
   const auto touches = [](Row row) { return row->margin && row->margin->deviations; };
   const auto add_margin = [&](const char* name, const char* unit, const char* meaning,

@@ -213,7 +213,8 @@ bool tells(const TableReader& table, const CoefficientKeys& keys) {
   return false;
 }
 
-/// Reads the coefficients of the forces that there are. What a deputy does not tell is its chief's.
+/// Reads the coefficients of the forces that there are. What a deputy's table leaves out is its
+/// chief's.
 SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForces& forces,
                                      bool is_deputy) {
   table.check_keys();
@@ -295,7 +296,7 @@ const TableDescription& spacecraft_table() {
        {"radiation_m2_kg", form::number(), absent::other("of mass, area and C_R"),
         "C_R A / m, at least 0"}},
       "What air and light do to a spacecraft of the model `earth`; a deputy is like the chief in "
-      "what it does not tell."};
+      "the keys that it leaves out."};
   return table;
 }
 

@@ -49,7 +49,7 @@ std::vector<SceneKey> zonal_gravity_keys() {
       {"zonals", form::array(form::integer(lowest, highest)),
        absent::other("`highest_zonal`, beside a file"),
        "the zonal harmonics that are taken from the file, ascending", owner},
-      {"gravity_epoch", form_of_epoch(), absent::other("that of the nominal's start"),
+      {"gravity_epoch", form_of_epoch(), absent::other("the epoch of the nominal's start"),
        "epoch for a file's coefficients that vary with time", owner},
       {"leave_out_C10", form::boolean(), absent::value(false),
        "whether to leave out C(1,0) of a file whose origin is not the centre of mass", both}};

@@ -44,8 +44,8 @@ struct UncertainApproach {
   bool holds(double radius_m) const {
     return flights > 0 && position_error_m < 0.1 * (distance_m > radius_m ? distance_m : radius_m);
   }
-  std::optional<ShortEncounter>
-      plane;            ///< of the whole passage; lengths in metres, times in seconds
+  /// The encounter plane of the whole passage; lengths in metres, times in seconds.
+  std::optional<ShortEncounter> plane;
   std::string refusal;  ///< reason why there is no plane
   bool is_cut = false;  ///< an edge of the window that was examined cuts the passage
   std::array<ApproachingSpacecraft, 2> spacecraft;  ///< the chief and the deputy

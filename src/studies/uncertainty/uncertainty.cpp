@@ -171,7 +171,7 @@ UncertainState moments_of(const InitialState& start, const FlowJet<double>& jet,
   return state;
 }
 
-/// Where the mean of a start is at one time.
+/// The place of a start's mean at one of the times.
 MeanOfStart mean_of(const InitialState& start, const FlowJet<double>& jet,
                     const FlowJet<double>& own, const Matrix<double>& to_frame) {
   MeanOfStart mean{Vector<double>(6), to_frame, {}};

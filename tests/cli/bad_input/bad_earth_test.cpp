@@ -41,7 +41,7 @@ string field_file(const string& tide_system) {
          "gfc 2 2 0.243914352398E-05 -0.140016683654E-05\n";
 }
 
-/// Two days of May 2023 as finals2000A has them, of the bulletins' A alone.
+/// Two days of May 2023 as finals2000A has them, with the values of Bulletin A alone.
 constexpr const char* orientation_file =
     "23 516 60080.00 I  0.060000 0.000018  0.480000 0.000017  I-0.0450000 0.0000100\n"
     "23 517 60081.00 I  0.062000 0.000018  0.482000 0.000017  I-0.0450000 0.0000100\n";

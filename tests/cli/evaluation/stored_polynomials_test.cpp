@@ -148,7 +148,7 @@ TEST_F(StoredPolynomials, OfChartsPredictAsIntegratedOnes) {
   EXPECT_EQ(stored["coordinates"], "spherical");
   const Json integrated = rows({"eval", "far.toml", "--set", "jet.coordinates=spherical"});
   for (const char* const name : {"R_m", "T_m", "N_m"}) {
-    // Rounding of 7000 km, times the growth on the way.
+    // The bound is the rounding of 7000 km times its growth along the flight.
     EXPECT_NEAR(stored["rows"][0][name].get<double>(), integrated["rows"][0][name].get<double>(),
                 1e-6);
   }

@@ -113,9 +113,9 @@ TEST(UnlikeTransfers, EndsAreReachedAsByDeputiesThatAreAlike) {
   }
 }
 
-// Clohessy and Wiltshire's equations with a constant deceleration f along the motion: from the
-// chief's place to it again in k + 1/2 revolutions take (-2 f / n, f t / 2, 0) and
-// (2 f / n, f t / 2, 0).
+// Expected, from Clohessy and Wiltshire's equations with a constant deceleration f along the
+// motion: a transfer from the chief's place back to it in k + 1/2 revolutions takes the changes (-2
+// f / n, f t / 2, 0) and (2 f / n, f t / 2, 0).
 TEST(UnlikeTransfers, ChangesOfVelocityDifferByWhatDragDoes) {
   Scene scene = circle(chief_drag, 1.02 * chief_drag,
                        "[transfer]\nend = { position_m = [0, 0, 0] }\ncount = 1\n");

@@ -54,7 +54,8 @@ void expect_like(const PeriodicOrbit& orbit, const test::IndependentHalo& own) {
   EXPECT_LT(orbit.monodromy.determinant_defect, 1e-7);
 }
 
-// From the near-rectilinear orbits almost to the plane, through the fold of the energy.
+// The family is followed from the near-rectilinear orbits almost to the plane, through the fold of
+// the energy.
 TEST(HaloFamily, TenMembersAreThoseOfADifferentialCorrection) {
   const PeriodicStudy study =
       study_periodic(halo_scene("earth-moon-halo-l2.toml", {{"periodic.family.step", "0.2"}}));

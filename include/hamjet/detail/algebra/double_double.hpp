@@ -63,7 +63,8 @@ class Doubled {
     const Doubled p = exact_product(a.high, b.high);
     return normalised(p.high, p.low + add_product(V(a.low * b.high), a.high, b.low));
   }
-  /// Three quotients of doubles, each of the remainder that the quotients before it have left.
+  /// The sum of three quotients of doubles, each computed from the remainder that the ones before
+  /// it left.
   friend Doubled operator/(const Doubled& a, const Doubled& b) {
     const V first = a.high / b.high;
     Doubled left = a - b * Doubled(first);
