@@ -100,7 +100,8 @@ class DeputyEvaluation {
   /// Adds a worker's predictions of these deputies, no more than DeputyPredictor::most_at_once.
   void predict(std::span<const SixNumbers<double>> initial, Worker& worker) const;
 
-  /// In positions and momenta, whose degrees add up: see estimate_truncation.
+  /// The estimate for polynomials in positions and momenta, whose degrees add up: see
+  /// estimate_truncation.
   MissEstimate estimate(const DeputyPrediction& prediction) const;
   /// Adds what flights and integrations are wrong by. In curved coordinates a deputy is told about
   /// the chief's end, so that it comes too late or too early as the chief does, at a speed of its

@@ -33,9 +33,9 @@ class FlowError {
   static FlowError of_numbers(std::span<const double> numbers);
 
   bool is_known() const { return is_known_; }
-  /// Of the chief's final position.
+  /// The error of the chief's final position.
   double of_chief() const { return of_chief_; }
-  /// Of a deputy's final position relative to the chief, by its initial deviation.
+  /// The error of a deputy's final position relative to the chief, from its initial deviation.
   double of_deviation(const SixNumbers<double>& deviation) const;
 
  private:

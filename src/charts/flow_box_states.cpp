@@ -12,8 +12,8 @@
 namespace hamjet {
 namespace {
 
-/// For states about the chief's: the section's variables u, the time since the section, and the
-/// difference in the ignored coordinate.
+/// The section's variables u, the time since the section, and the difference in the ignored
+/// coordinate, as series for states about the chief's.
 struct SectionEntry {
   std::vector<Series<double>> variables;
   Series<double> time;

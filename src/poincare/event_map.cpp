@@ -34,7 +34,7 @@ struct StateSizes {
   }
 
   Real of(std::size_t place) const { return place < 3 ? distance : speed; }
-  /// In which the state changes by about itself.
+  /// A time in which the state changes by about its own size.
   Real time() const { return distance / speed; }
 
   Real distance;

@@ -89,7 +89,7 @@ RotationNormalForm::RotationNormalForm(const NodalFlight<double>& flight)
   };
   const double cosine = (slope(flight.q, q_variable) + slope(flight.p, p_variable)) / 2;
   if (!(std::abs(cosine) < 1)) {
-    // Of a sum of numbers near 1.
+    // The rounding of a sum of numbers near 1.
     constexpr double rounding = 1e-14;
     throw Error(ErrorKind::numerical,
                 std::abs(cosine) < 1 + rounding

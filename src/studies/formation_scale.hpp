@@ -29,7 +29,7 @@ class FormationPoints {
   double position_error_m(const FlowJet<Extended>& jet, const FlowJet<Extended>& reference) const;
 
  private:
-  /// In canonical units, with an entry for each variable.
+  /// The points in canonical units, with an entry for each variable.
   std::vector<std::vector<double>> points_;
   std::size_t positions_ = 0;  ///< number of components that are positions
   double metres_ = 0;          ///< metres per canonical unit of length

@@ -25,7 +25,7 @@ class EncounterTrajectories {
  public:
   /// Throws as integrate_gauss.
   explicit EncounterTrajectories(const EncounterProblem& problem);
-  /// With jets that exist already.
+  /// Makes the trajectories from jets that exist already.
   EncounterTrajectories(const EncounterProblem& problem, std::array<WindowJets, 2> jets);
 
   double from() const { return from_; }
@@ -35,7 +35,7 @@ class EncounterTrajectories {
   LinearRelativeState linear(double time) const;
   LinearRelativeState linear(const std::array<FlowJet<double>, 2>& jets) const;
 
-  /// For the means: the distance, rho.v, and the derivative of rho.v by time.
+  /// The distance of the means, their rho.v, and the derivative of rho.v by time.
   double distance(double time) const;
   double approach_rate(double time) const;
   double approach_rate_slope(double time) const;

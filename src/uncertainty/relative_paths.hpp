@@ -53,7 +53,7 @@ class RelativePaths {
   /// infinite, all do. Throws as validate and integrate_gauss, and Error(too_large) for a window
   /// that would take too many nodes.
   RelativePaths(const EncounterProblem& problem, double accuracy, double sphere);
-  /// With jets that exist already, of the problem's order and of order_of_looks.
+  /// Makes the paths from jets that exist already, of the problem's order and of order_of_looks.
   RelativePaths(const EncounterProblem& problem, double accuracy, double sphere,
                 const EncounterTrajectories& trajectories, const EncounterTrajectories& low);
 
@@ -80,7 +80,7 @@ class RelativePaths {
   void lay_nodes(const EncounterProblem& problem, double accuracy, double sphere,
                  const EncounterTrajectories& trajectories, const EncounterTrajectories& low);
 
-  /// For each spacecraft and each degree, from 1.
+  /// An evaluator for each spacecraft and each degree, from 1 on.
   std::array<std::vector<MapEvaluator>, 2> evaluators_;
   std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
   std::vector<double> times_;

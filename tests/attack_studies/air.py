@@ -38,7 +38,7 @@ def rows_of(text):
 
 
 def solved(matrix, right):
-    """By elimination with the largest pivot."""
+    """Solves linear equations by elimination with the largest pivot."""
     rows = [[*row, b] for row, b in zip(matrix, right)]
     n = len(rows)
     for k in range(n):

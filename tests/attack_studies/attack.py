@@ -32,7 +32,7 @@ from judgement import Judgement
 # Studies by the weight with which they are drawn.
 STUDIES = {"motion": 5, "evaluation": 6, "transfer": 6, "validity": 3, "assignment": 3,
            "moments": 4, "collision": 3, "safety": 2, "event": 3, "poincare": 1, "bounded": 2}
-# About the real Earth, whose forces depend on the time.
+# The studies about the real Earth, whose forces depend on the time.
 STUDIES_OF_EARTH = {"jet": 5, "motion": 5, "transfer": 4, "validity": 2, "evaluation": 4}
 
 OUTCOMES = ("right", "marked", "wrong")

@@ -64,7 +64,7 @@ class Earth {
  public:
   explicit Earth(EarthSettings settings);
 
-  /// Of a place along GCRF, at seconds after the epoch.
+  /// The acceleration at a place along GCRF, at a time in seconds after the epoch.
   Vector acceleration(const Vector& x, Real time);
   bool has_air() const { return !settings_.air.profiles.empty(); }
   Drag drag(const Vector& x, Real time);

@@ -91,11 +91,11 @@ class Field:
         return separations, times
 
     def energy(self, state):
-        """Of the point mass alone."""
+        """The energy in the field of the point mass alone."""
         return np.dot(state[3:], state[3:]) / 2 - self.mu / np.sqrt(np.dot(state[:3], state[:3]))
 
     def period(self, state):
-        """Of the osculating ellipse."""
+        """The period of the osculating ellipse."""
         a = -self.mu / (2 * self.energy(state))
         return 2 * PI * np.sqrt(a * a * a / self.mu)
 

@@ -75,7 +75,7 @@ def draw_ends(scene, table):
     table["start"], table["end"] = {}, {}
     scene.end_form = None
     if scene.has_node and source.chance(0.35):
-        # From one relative orbit to another.
+        # The transfer goes from one relative orbit to another.
         scene.end_form = "relative-elements"
         first = [0.0, source.uniform(-1, 1) * distance * 0.3] + source.vector(
             distance)[:2] + source.vector(distance)[:2]

@@ -29,7 +29,7 @@ def draw_known(scene, table, sigma, default_derivatives="inertial", frames=True)
 
 
 def inertial_covariance(state, covariance, frame):
-    """Of deviations along inertial axes, from one along the axes of the spacecraft's own orbit."""
+    """The covariance along inertial axes, from one along the axes of the spacecraft's own orbit."""
     matrix = orbit.from_frame(state, np.eye(6, dtype=REAL), *frame).T
     return np.array(matrix @ covariance @ matrix.T, dtype=float)
 

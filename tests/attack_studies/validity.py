@@ -51,7 +51,7 @@ class Polynomials:
         self.units = np.array([scene.length] * 3 + [velocity] * 3)
 
     def positions(self, deviations, degree):
-        """Of deviations [n, 6] in SI units, relative to the chief."""
+        """The positions for deviations [n, 6] in SI units, relative to the chief."""
         chosen = self.exponents.sum(axis=1) <= degree
         exponents, coefficients = self.exponents[chosen], self.coefficients[chosen]
         d = np.array(deviations / self.units, dtype=REAL)

@@ -70,7 +70,7 @@ def least_ratio(scene, deputy, time, axes):
 
 
 def distances_to_lines(places):
-    """Of the centre from the straight lines between places that follow each other."""
+    """The distances of the centre from the straight lines between places that follow each other."""
     first, way = places[:-1], np.diff(places, axis=0)
     length = np.maximum(orbit.dot(way, way), REAL(1e-300))
     share = np.clip(-orbit.dot(first, way) / length, 0, 1)

@@ -36,7 +36,7 @@ struct StudyCase {
   std::vector<std::string> arguments = {};
 };
 
-/// For messages and lists of tests.
+/// Prints the name of a case in messages and lists of tests.
 void PrintTo(const StudyCase& study, std::ostream* out) { *out << study.name; }
 
 const std::vector<StudyCase> all_cases = {

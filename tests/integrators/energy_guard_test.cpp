@@ -42,7 +42,7 @@ TEST(EnergyGuard, NoticesAnotherOrbitInAnyUnitOfLength) {
 TEST(EnergyGuard, KnowsTheRoundingOfTermsThatVanishAtTheStart) {
   const FlowProblem<double> problem = constant_problem(double_well(), {0, 1e-9});
   EnergyGuard<double> guard(problem, 1e-12, "test");
-  // In the middle of a well, on the way through both wells: p^2/2 = 1/8.
+  // This state is in the middle of a well, on the way through both wells: p^2/2 = 1/8.
   std::vector<double> bottom = {1 / std::numbers::sqrt2, 0.5};
   EXPECT_NO_THROW(guard.check(bottom.data(), 1, 1.0));
   bottom[1] = 0.51;

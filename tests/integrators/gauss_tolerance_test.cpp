@@ -36,8 +36,8 @@ struct Orbit {
   double revolutions = 0;
 };
 
-/// In canonical units, expanded in the radius and the transversal velocity, which change the
-/// energy.
+/// The flow on an orbit in canonical units, expanded in the radius and the transversal velocity,
+/// which change the energy.
 template <class Real>
 test::Flow<Real> flow_on(const Orbit& orbit, int highest_zonal, int order) {
   constexpr double mu = 398600.4415;

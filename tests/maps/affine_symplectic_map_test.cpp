@@ -20,7 +20,7 @@ Matrix<double> matrix2(double a, double b, double c, double d) {
   return m;
 }
 
-// For one degree of freedom A J A^T = (det A) J.
+// Expected: for one degree of freedom A J A^T = (det A) J.
 TEST(AffineSymplecticMap, DefectIsTheDeterminantMinusOneInThePlane) {
   const auto defect = symplecticity_defect(matrix2(2, 1, 1, 1.5));
   EXPECT_NEAR(defect.absolute, 2 * 1.5 - 1 - 1, 1e-15);

@@ -85,8 +85,8 @@ TEST(Transversality, EndsOnLines) {
     const Eigen::VectorXd p = to.solution.trajectory.costates.back();
     EXPECT_NEAR(p(1), 2 * p(0), 1e-13);
 
-    // From position - velocity = 1 to the origin: delta = -Phi x_0, x_0 = (1 + v, v), minimised
-    // over v; J = delta^T W^-1 delta / 2.
+    // The motion leads from position - velocity = 1 to the origin: delta = -Phi x_0, x_0 = (1 + v,
+    // v), minimised over v; J = delta^T W^-1 delta / 2.
     const auto from_line =
         double_integrator(on_line(1, -1, 1), fixed_state(std::vector<double>{0, 0}));
     const Solved from = solve(from_line, form, 2, shooting(from_line, steps, 5, {1, 0}, {0, 0}));

@@ -77,7 +77,7 @@ TEST(EventMap, PredictsEventsOfDeputiesThatAreFlownIndependently) {
 TEST(EventMap, HasTheTimesOfKeplersCircles) {
   const double inclination = 0.7;
   const double c = std::cos(inclination), s = std::sin(inclination);
-  // From the descending node to the ascending one, half a turn.
+  // The way from the descending node to the ascending one is half a turn.
   const SixNumbers<double> chief = {-1, 0, 0, 0, -c, -s};
   const auto map = event_map<double>(kepler(), chief, ClockTime::epoch(), 3.0, 4, event_gauss,
                                      EventCondition<double>(height));

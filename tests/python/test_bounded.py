@@ -90,7 +90,7 @@ def test_a_neighbour_has_the_event_that_the_polynomials_say():
     own = hamjet.event(SCENE, overrides=[
         *EVENT, "nominal={position_km=" + str((start[:3] * event.length_km).tolist())
         + ", velocity_km_s=" + str((start[3:] * speed).tolist()) + "}"])
-    # Of degree 4: 1e-20 times coefficients of thousands at most, far below the rounding.
+    # Degree 4 contributes 1e-20 times coefficients of thousands at most, far below the rounding.
     assert abs(own.time_s - time * event.time_unit_s) < 1e-7
     scale = own.length_km / event.length_km
     assert np.allclose(own.state_canonical[:3] * scale, state[:3], atol=1e-11)

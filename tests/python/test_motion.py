@@ -72,7 +72,7 @@ def test_circles_of_one_size_are_those_of_kepler(circles):
     radial = np.array([np.cos(chief), np.sin(chief), 0 * chief])
     transverse = np.array([-np.sin(chief), np.cos(chief), 0 * chief])
     expected = np.array([(place * radial).sum(axis=0), (place * transverse).sum(axis=0), place[2]])
-    # As seen from axes that turn with the chief.
+    # The velocity as seen from axes that turn with the chief.
     turning = np.array([(velocity * radial).sum(axis=0) + rate * expected[1],
                         (velocity * transverse).sum(axis=0) - rate * expected[0], velocity[2]])
     expected[0] -= size_m

@@ -143,7 +143,7 @@ def test_a_jet_that_is_converted_says_what_the_integrated_polynomials_say(tmp_pa
     load = hamjet.Polynomials.load
     converted = load(tmp_path / "out", coordinates="flow-box", scene=SCENE)
     assert (converted.coordinates, converted.variables, converted.order) == ("flow-box", 4, 3)
-    # Of 7000 km some 1e-12: both integrations' errors, and rounding.
+    # The bound is some 1e-12 of 7000 km, for both integrations' errors and for rounding.
     found, expected = converted.evaluate_relative(states), boxes.evaluate_relative(states)
     assert np.abs(found.states[:, :3] - expected.states[:, :3]).max() < 1e-5
     nodal = load(tmp_path / "out", coordinates="nodal", end_coordinates="poincare")

@@ -81,7 +81,7 @@ TEST(LinearRelativeMotion, ClohessyWiltshire) {
 }
 
 TEST(LinearRelativeMotion, YamanakaAnkersenOnAnEccentricOrbit) {
-  // From the true anomaly 0.7 through a revolution and more.
+  // The motion goes from the true anomaly 0.7 through a revolution and more.
   const test::UnitEllipse ellipse(0.4);
   const double start = 0.7;
   for (const double end : {2.0, 4.5, 8.9}) {

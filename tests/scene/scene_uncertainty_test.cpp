@@ -91,7 +91,7 @@ TEST(SceneUncertainty, ATableInheritsNothingThatItsFrameDoesNotTake) {
 }
 
 TEST(SceneUncertainty, ABurnHasTheCovarianceOfGates) {
-  // Along T: the size moves vT, the direction vR and vN.
+  // The burn is along T: an error of its size moves vT, one of its direction vR and vN.
   const auto burn = scene_with_tables(
                         "[uncertainty.burn]\nvelocity_change_m_s = [0, 10, 0]\nmagnitude = 0.01\n"
                         "direction_deg = 0.5\n")

@@ -59,7 +59,7 @@ const SelfCheck& estimate_check(const RunResult& run) {
   return run.checks[static_cast<std::size_t>(SelfCheckName::error_estimate)];
 }
 
-/// About a revolution of the paper's chief, with order 3.
+/// A scene with about a revolution of the paper's chief, of order 3.
 Scene coarse_scene() {
   Scene scene = paper_chief(3);
   scene.duration = 12;

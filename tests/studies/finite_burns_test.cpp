@@ -20,7 +20,8 @@ namespace {
 const double canonical_s = std::sqrt(7000.0 * 7000 * 7000 / 398600.4405);
 constexpr double exhaust_m_s = 2000;
 
-/// From rest 100 m above the plane of a circular orbit to rest at the chief, in one radian.
+/// A transfer from rest 100 m above the plane of a circular orbit to rest at the chief, in one
+/// radian.
 Scene out_of_plane(double acceleration_m_s2) {
   Scene scene = kepler_chief(0, 7000, canonical_s, 2);
   TransferSettings settings;

@@ -14,7 +14,8 @@
 namespace hamjet {
 namespace {
 
-/// From perigee at distance 1 = 7000 km, with a radius in kilometres.
+/// A chief that starts at perigee at distance 1 = 7000 km, about a body with a radius in
+/// kilometres.
 Scene chief(double eccentricity, double radius_km) {
   Scene scene = kepler_chief(eccentricity, 7000, 1000, 1);
   scene.system.radius_km = radius_km;

@@ -15,7 +15,7 @@
 namespace hamjet {
 namespace {
 
-/// From rest at one point to rest at another, far from singular times.
+/// A transfer from rest at one point to rest at another, far from singular times.
 TransferSettings short_hop(double separation_m, std::vector<double> times) {
   TransferSettings settings;
   settings.start.position_m = Eigen::Vector3d(0.6, -0.7, 0.4).normalized() * separation_m;

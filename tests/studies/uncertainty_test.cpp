@@ -107,8 +107,8 @@ TEST(Uncertainty, MomentsAreThoseOfStatesThatWereFlown) {
   }
 }
 
-// 40 km along the track bend the orbit by 116 m in the mean, more than the 100 m across it. The flown
-// samples begin at exact states of elements.
+// 40 km along the track bend the orbit by 116 m in the mean, more than the 100 m across it. The
+// flown samples begin at exact states of elements.
 TEST(Uncertainty, MomentsOfAStartInElementsAreThoseOfItsFlights) {
   const std::string long_track =
       "[uncertainty]\nposition_m = [100, 40000, 100]\nvelocity_m_s = [0.1, 0.1, 0.1]\n";
@@ -241,7 +241,7 @@ TEST(Uncertainty, NoiseOfTheAccelerationGrowsAsOnARelativeOrbit) {
 }
 
 TEST(Uncertainty, ScattersAreThoseOfGaussianSamples) {
-  // Of a Gaussian sample: s/sqrt(n), s/sqrt(2 n), sqrt(6/n), sqrt(24/n).
+  // The scatters of a Gaussian sample are s/sqrt(n), s/sqrt(2 n), sqrt(6/n), sqrt(24/n).
   const UncertaintyResult result = study_uncertainty(
       scene_of(low, 1, "[uncertainty]\nposition_m = [1, 1, 1]\nsamples = 20000\ntimes_s = 1\n",
                "cartesian"));

@@ -53,7 +53,8 @@ class LateDeputy {
     const double mean = start - sine + turn / std::pow(a, 1.5);
     double anomaly = mean;
     for (int k = 0; k < 50; ++k) anomaly = mean + e * std::sin(anomaly);
-    // Along axes of perigee, from those of the start.
+    // Positions are along the axes of perigee; the rotation below turns them into those of the
+    // start.
     const auto position = [&](double angle) {
       return Eigen::Vector2d(a * (std::cos(angle) - e), a * std::sqrt(1 - e * e) * std::sin(angle));
     };

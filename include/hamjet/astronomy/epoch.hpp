@@ -26,7 +26,7 @@ inline std::string_view time_system_name(TimeSystem system) {
 std::optional<TimeSystem> time_system_named(std::string_view name);
 
 inline constexpr std::int64_t picoseconds_per_second = 1'000'000'000'000;
-/// Of a day without a leap second.
+/// The picoseconds of a day without a leap second.
 inline constexpr std::int64_t picoseconds_per_day = 86'400 * picoseconds_per_second;
 
 /// A moment on the calendar of a time system, to the picosecond (in which a satellite moves by 8

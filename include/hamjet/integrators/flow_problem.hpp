@@ -91,7 +91,7 @@ struct IntegrationStatistics {
   /// By degree, the relative error that rounding leaves even with very short steps of an adaptive
   /// Gauss method; empty if every degree meets the tolerance.
   std::vector<double> rounding_by_degree;
-  /// By degree, the relative error along two lines if none of the step sizes that an adaptive Gauss
+  /// The relative error by degree along two lines, if none of the step sizes that an adaptive Gauss
   /// method tried met the tolerance in all degrees; otherwise empty.
   std::vector<double> unmet_by_degree;
   /// The flow along lines of deviations with other stages and finer steps, with which an adaptive

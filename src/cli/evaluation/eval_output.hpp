@@ -21,7 +21,7 @@ class EvalOutput {
   /// More rows than this are not printed as JSON, but counted only.
   static constexpr std::size_t most_json_rows = 100;
 
-  /// With a column of the time if `has_time`. `take` gets the CSV, piece by piece.
+  /// The output has a column of the time if `has_time`. `take` gets the CSV, piece by piece.
   EvalOutput(std::vector<std::string_view> columns, bool has_time,
              std::function<void(std::string_view)> take);
 

@@ -13,10 +13,10 @@ struct EvaluationWork {
   int degree = 0;
   std::size_t multiply_adds_per_point = 0;
   std::size_t products_per_point = 0;
-  /// Of all points, with those of the lower degrees that estimates need.
+  /// The multiply-adds of all points, with those of the lower degrees that estimates need.
   double all_multiply_adds = 0;
 
-  /// Of the polynomials, without the time of the charts.
+  /// The speed of the polynomials, without the time of the charts.
   double multiply_adds_per_second() const { return all_multiply_adds / (seconds - chart_seconds); }
 
   void add(double taken, double multiply_adds, const MapEvaluator& evaluator) {

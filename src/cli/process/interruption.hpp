@@ -26,7 +26,7 @@ class Interrupted : public std::exception {
 /// errors of the write.
 void catch_signals();
 
-/// From now on a sudden end leaves a finished part of the results.
+/// Notes that from now on a sudden end leaves a finished part of the results.
 void note_finished_part();
 
 /// Prints the one line that an interrupted program ends with, after which no signal adds another,

@@ -55,7 +55,7 @@ Pack<double, Lanes> foot_in_double(const Pack<double, Lanes>& p2, const Pack<dou
   return k;
 }
 
-/// As foot_in_double, to the precision of P.
+/// Finds what foot_in_double finds, to the precision of P.
 template <class P>
 P foot_of(const P& p2, const P& z2, const P& b2) {
   using Real = typename P::real_type;

@@ -114,7 +114,7 @@ void PointMassField::expand_tide(std::size_t count, const DoubleDouble* x, const
 }
 
 double PointMassField::multiply_adds(int degree) const {
-  // Of the recursion, seven a coefficient at most.
+  // The recursion takes seven for each coefficient at most.
   return 7 * static_cast<double>(local_field_size(degree));
 }
 

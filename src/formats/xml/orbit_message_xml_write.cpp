@@ -69,7 +69,7 @@ void add_state(Node parent, const OrbitState& state, const std::vector<std::stri
   }
 }
 
-/// In the order of the schema of CCSDS 505.0-B-3, that of the standard.
+/// Adds the elements in the order of the schema of CCSDS 505.0-B-3, which is that of the standard.
 void add_spacecraft(Node parent, const OpmSpacecraft& spacecraft) {
   Node block;
   for (const auto& [quantity, member] : spacecraft_quantities()) {

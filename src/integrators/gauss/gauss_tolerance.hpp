@@ -15,8 +15,7 @@ struct StepTolerance {
   /// By degree, the relative error that shorter steps do not reduce because it is rounding; empty
   /// if every degree meets the requested tolerance.
   std::vector<double> rounding_by_degree;
-  /// By degree, the relative error of the last trial if no trial met the tolerance; otherwise
-  /// empty.
+  /// The relative error by degree of the last trial if no trial met the tolerance; otherwise empty.
   std::vector<double> unmet_by_degree;
   /// The lines of the last trial with finer steps; empty if nothing was tried.
   std::vector<JetAlongLine<Real>> finer_lines;

@@ -111,7 +111,7 @@ class LaneStepControl {
     });
   }
 
-  /// As GaussIntegrator::is_suspicious, for controlled steps.
+  /// The test of GaussIntegrator::is_suspicious, for controlled steps.
   bool is_suspicious(std::size_t lane) const {
     const StepMeasures& step = measures_[lane];
     return step.defect > 0.5 * step.slope + 2 * step.largest_gradient * displacement_[lane];

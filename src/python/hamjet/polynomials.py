@@ -70,7 +70,7 @@ class Polynomials(Immutable):
 
     @property
     def duration_s(self) -> float:
-        """From the start to the end, in s; negative backwards."""
+        """The time from the start to the end, in s; negative if it goes backwards."""
         return self._study.duration_s
 
     def __repr__(self) -> str:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 
 def span(times_s: npt.NDArray[np.float64], noun: str = "times") -> str:
-    """As in "97 times from 0 s to 8.64e+04 s"."""
+    """A text such as "97 times from 0 s to 8.64e+04 s"."""
     if len(times_s) == 0:
         return f"no {noun}"
     return f"{len(times_s)} {noun} from {times_s[0]:.6g} s to {times_s[-1]:.6g} s"

@@ -208,7 +208,7 @@ def _binary(operator: str, a: Any, b: Any) -> Any:
 
 
 def free_prefix(names: Iterable[str]) -> str:
-    """With which none of the names begins, for names of definitions."""
+    """A prefix with which none of the names begins, for names of definitions."""
     taken = list(names)
     prefix = "w"
     while any(name.startswith(prefix) for name in taken):

@@ -27,7 +27,7 @@ std::string_view time_choice(const AssignmentResult& result) {
   return result.scene.assignment->time == AssignmentTime::common ? "common" : "per-pair";
 }
 
-/// As in "deputies 0 and 2 come to 1.2 km of each other at 3600 s (60.0 min)".
+/// A text such as "deputies 0 and 2 come to 1.2 km of each other at 3600 s (60.0 min)".
 std::string pair_text(const AssignmentResult& result, const DeputyPair& pair) {
   return fmt::format("deputies {} and {} come to {} of each other at {}", pair.first, pair.second,
                      length_text(pair.separation_m),

@@ -20,14 +20,14 @@ std::string waypoint_lines(const TransferResult& result);
 std::string waypoint_section_html(const TransferResult& result);
 
 nlohmann::ordered_json waypoints_json(const TransferResult& result);
-/// The same of the least transfer whose first impulse waits.
+/// The same texts for the least transfer whose first impulse waits.
 std::string coasting_verdict(const TransferResult& result);
 std::string coasting_failure(const TransferResult& result);
 std::string coasting_lines(const TransferResult& result);
 std::string coasting_section_html(const TransferResult& result);
 nlohmann::ordered_json coasting_json(const TransferResult& result);
 
-/// The same of the least transfer with another number of revolutions.
+/// The same texts for the least transfer with another number of revolutions.
 std::string revolutions_verdict(const TransferResult& result);
 std::string revolutions_failure(const TransferResult& result);
 std::string revolutions_lines(const TransferResult& result);

@@ -72,7 +72,7 @@ std::string charted_line(const Scene& scene, const RunResult& run) {
   return text + "\n";
 }
 
-/// In a word what came of a run; the lines below the table say more.
+/// A word that says what came of a run; the lines below the table say more.
 std::string verdict(const Scene& scene, const RunResult& run) {
   if (!run.failure.empty()) return "failed";
   if (!run.failed_checks.empty()) return "check failed";

@@ -57,7 +57,7 @@ const UncertainState& judged_state(const UncertaintyAt& at);
 /// By how much a probability by the linear covariance may be wrong, of any event, whatever
 /// combination of components it is about.
 double linear_error_of_probability(const std::vector<Cumulants>& by_order);
-/// The same of events about one component alone, the largest of the six.
+/// The same error for events about one component alone: the largest of the six.
 double linear_error_of_component(const std::vector<Cumulants>& by_order);
 
 /// The first that a reader sees: how well the position is known in the end.

@@ -25,7 +25,7 @@
 namespace hamjet {
 namespace {
 
-/// Of the polynomials' integration, whose errors add up over the window.
+/// The largest tolerance of the polynomials' integration, whose errors add up over the window.
 constexpr double most_family_tolerance = 1e-13;
 
 std::vector<double> vector_of(const SixNumbers<double>& z) { return {z.begin(), z.end()}; }

@@ -56,8 +56,8 @@ struct BoundedDeputy {
   double least_size_m = 0;
   double largest_size_m = 0;
   double last_size_m = 0;
-  // For deputies of the map and refined ones: the period of the Kepler ellipse over the chief's,
-  // less 1, and H less the chief's, canonical.
+  // For deputies of the map and refined ones these are the period of the Kepler ellipse over the
+  // chief's, less 1, and H less the chief's, canonical.
   double period_difference = 0;
   double momentum_difference = 0;
   int refinements = 0;                              ///< iterations of Newton's method by flying

@@ -17,7 +17,7 @@ namespace {
 /// Random deviations of which the first are flown, and from all of which ascents begin.
 constexpr std::size_t random_directions = 32;
 constexpr std::size_t flown_random_directions = 8;
-/// Of each degree that chooses deviations, to both sides.
+/// The number of maxima of each degree that chooses deviations; both sides of each are flown.
 constexpr std::size_t flown_maxima = 4;
 
 /// The direction and its opposite, where neither is there yet: a degree contributes as much at

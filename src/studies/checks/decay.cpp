@@ -26,7 +26,7 @@ double density_at(const DensityProfile& profile, double height_km) {
   return density.lane(0);
 }
 
-/// By the radius of the ellipsoid at the place's latitude, to some 50 m.
+/// The height over the ellipsoid's radius at the latitude of the place, right to some 50 m.
 double height_km(const Scene& scene, const std::vector<double>& state) {
   const ReferenceEllipsoid ellipsoid;
   const Eigen::Vector3d place(state.data());

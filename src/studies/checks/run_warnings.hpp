@@ -18,7 +18,8 @@ std::string near_singular_warning(const Scene& scene, const RunResult& run);
 /// check fails in this case.
 std::string no_digits_warning(const RunResult& run);
 
-/// The same of the run's polynomials in the scene's coordinates, by degrees_without_digits.
+/// The same warning for the run's polynomials in the scene's coordinates, by
+/// degrees_without_digits.
 std::string charted_digits_warning(const Scene& scene, const RunResult& run);
 
 /// A warning about fixed steps that pass over edges of the shadow; empty for other runs.

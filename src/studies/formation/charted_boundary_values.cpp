@@ -22,8 +22,8 @@ double distance_of(const SixNumbers<double>& z) { return final_position(z).norm(
 
 Eigen::Matrix3d commanded_positions(DeputyPredictor& predictor, const SixNumbers<double>& deviation,
                                     int degree) {
-  // In units of the chief's own speed; the cube root of the machine's precision balances rounding
-  // against the third derivative.
+  // The step is in units of the chief's own speed. The cube root of the machine's precision
+  // balances rounding against the third derivative.
   const double step = std::cbrt(std::numeric_limits<double>::epsilon()) *
                       momentum_part(predictor.flow().chief_end()).norm();
   std::array<SixNumbers<double>, 6> moved;

@@ -44,8 +44,8 @@ class Route {
   /// Error(numerical) if this fails.
   Underway fly_to(const Underway& from, double time, const std::vector<double>& wanted,
                   WaypointPlan& plan);
-  /// As fly_to, but starts from a guess of the deputy's state at the start of the leg, after the
-  /// impulse.
+  /// Does what fly_to does, but starts from a guess of the deputy's state at the start of the leg,
+  /// after the impulse.
   Underway fly_from_guess(const Underway& from, double time, const std::vector<double>& wanted,
                           std::vector<double> guess, WaypointPlan& plan);
   /// Adds the impulse at the end, and results that need the whole plan; primer vectors of the legs

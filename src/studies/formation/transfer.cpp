@@ -156,7 +156,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     const Stopwatch watch(result.seconds.burns);
     result.burns = finite_burns(scene, problem, result, progress);
   }
-  // Of deputies about one like themselves.
+  // The validity is that of deputies about a chief with their own coefficients.
   if (scene.validity) result.validity = study_validity(with_deputy_coefficients(asked), progress);
   result.hamilton_jacobi_floor = points.hamilton_jacobi_floor();
   result.singular_times = points.singular_times();

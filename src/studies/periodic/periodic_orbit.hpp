@@ -54,8 +54,8 @@ struct Monodromy {
   /// The n - 1 stability indices (lambda + 1/lambda)/2 of the multipliers but the pair 1 that every
   /// orbit has; the index of largest size first, in a family in the order of the member before.
   std::vector<std::complex<double>> indices;
-  /// Of each index the multiplier on or outside the unit circle, with an imaginary part of at least
-  /// 0 on it.
+  /// The multiplier of each index that lies on or outside the unit circle; if it lies on the
+  /// circle, its imaginary part is at least 0.
   std::vector<std::complex<double>> multipliers;
   double determinant_defect = 0;  ///< |det M - 1|
   double symplectic_defect = 0;   ///< largest entry of M^T J M - J

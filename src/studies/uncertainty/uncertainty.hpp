@@ -30,7 +30,7 @@ struct FlownMoments {
   Vector<double> skewness_error;
   Vector<double> kurtosis_error;
 };
-/// Of columns of six numbers.
+/// The moments of flown states, which are columns of six numbers.
 FlownMoments flown_moments(const Matrix<double>& states);
 
 /// The distribution of one spacecraft's state at one time, or of the difference of two. All

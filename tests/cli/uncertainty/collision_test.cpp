@@ -58,7 +58,7 @@ struct CrossingCircles {
   double rate = speed / radius;
 
   std::string scene(const std::string& ephemeris) const {
-    // Of the deputy less the chief, along inertial axes.
+    // The state of the deputy less that of the chief, along inertial axes.
     const std::array<double, 6> d = {radius * (std::cos(phi) - 1),
                                      radius * std::sin(phi),
                                      0,

@@ -106,7 +106,7 @@ double height_error(const Extended& b, const Extended& sine, const Extended& cos
 TEST(AtmosphereField, HeightsAreRightFromPoleToEquator) {
   std::array<double, 3> largest{};
   for (const double flattening : {0.0, 1 / 298.257223563, 0.1}) {
-    // As far out as 80 km below the ground and 60000 km above it.
+    // The heights range from 80 km below the ground to 60000 km above it.
     for (const double h : {-0.0125, 0.0125, 0.06, 0.3, 1.0, 9.4}) {
       for (const double angle : {0.0, 1e-9, 0.01, 0.3, 0.8, 1.2, 1.57, 1.570796326794}) {
         const Extended b = Extended(1) - flattening;

@@ -15,7 +15,7 @@ namespace hamjet::test {
 /// coefficients as those of the position.
 struct AtmosphereReference {
   std::array<double, 3> point;
-  bool of_maximum;  // Of the greatest density, else of the least one.
+  bool of_maximum;  // whether it is that of the greatest density, else of the least one
   std::array<double, 7> condition;
   std::array<const char*, 84> coefficients;
 };

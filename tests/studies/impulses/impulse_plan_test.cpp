@@ -86,8 +86,8 @@ TEST(ImpulsePlan, Hohmann) {
   EXPECT_NEAR(total_of(result), 0.5, 1e-5);
 }
 
-// Along the orbit in half a revolution: two radial impulses of n x / 4. (Fehse, Automated
-// Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
+// Expected for a change of place along the orbit in half a revolution: two radial impulses of n x /
+// 4. (Fehse, Automated Rendezvous and Docking of Spacecraft, 2003, section 3.3.)
 TEST(ImpulsePlan, RadialAlongTheOrbit) {
   const TransferResult result =
       study_transfer(metres_from_circle({{0, -1, 0}, {0, 0, 0}}, std::numbers::pi));

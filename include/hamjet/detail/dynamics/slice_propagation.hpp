@@ -139,7 +139,7 @@ class SlicePropagation {
                        bool has_sums) const {
     complete(values_, slices, stride, first, last, has_sums);
   }
-  /// As complete_values, for the values alone that sums of higher degrees need.
+  /// Does what complete_values does, for those values alone that sums of higher degrees need.
   void complete_intermediates(T* slices, std::size_t stride, std::size_t first, std::size_t last,
                               bool has_sums) const {
     complete(intermediates_, slices, stride, first, last, has_sums);

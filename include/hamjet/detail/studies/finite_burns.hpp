@@ -51,8 +51,8 @@ struct BurnPlan {
 
 /// The burns of table `[thruster]`.
 struct FiniteBurns {
-  /// For two impulses by transfer time, away from 0, and then for the optimal impulses if the scene
-  /// asks for them.
+  /// The plans for two impulses by transfer time, away from 0, and then those for the optimal
+  /// impulses if the scene asks for them.
   std::vector<BurnPlan> plans;
   std::optional<std::size_t> least;  ///< index of the least change of those that were found
   std::string failure;               ///< if not empty, the reason why there is none

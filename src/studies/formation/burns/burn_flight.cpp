@@ -20,7 +20,8 @@ Eigen::Vector3d direction_of(const Eigen::Vector3d& change) {
   return size > 0 ? Eigen::Vector3d(change / size) : Eigen::Vector3d::UnitY();
 }
 
-/// Of the derivatives of Newton's method, which flights without them judge.
+/// The tolerance of the derivatives in Newton's method. Flights without derivatives judge its
+/// result.
 constexpr double tolerance_of_derivatives = 1e-11;
 
 /// The mean time of the change of a burn from mass 1 on, in parts of the time that would burn all
