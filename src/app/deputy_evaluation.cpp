@@ -164,7 +164,7 @@ io::StoredJet stored_polynomials(const EvaluatedScene& scene) {
   }
   io::StoredJet stored = scene.chief;
   stored.nominal_final = scene.stored_end;
-  // They are evaluated in double precision, whatever they were stored in.
+  // The polynomials are evaluated in double precision, whatever precision they were stored in.
   stored.precision = Precision::double_precision;
   stored.jet = convert_map<Extended>(scene.flow->polynomials());
   if (stored.flow_box) return stored;

@@ -209,7 +209,7 @@ std::vector<double> EvalCoordinates::final_state(std::span<const double> compone
     const auto numbers = final_->coordinates(full);
     return {numbers.begin(), numbers.end()};
   } catch (const Error& error) {
-    // Beyond the polynomial's reach it may give what is no orbit of a deputy at all.
+    // Beyond its reach the polynomial may give numbers that are no orbit of a deputy at all.
     if (error.kind() != ErrorKind::numerical) throw;
     if (miss.is_inside()) miss.support = TruncationEstimate::Support::unknown;
     return std::vector<double>(full.size(), std::numeric_limits<double>::quiet_NaN());

@@ -29,7 +29,8 @@ double series_multiply_adds(const OperationList& recorded, const SeriesSpace& sp
     if (o.code == OperationCode::field) {
       total += static_cast<double>(o.terms.size()) * product;
       for (const FieldProduct& p : o.products) {
-        // Its share in a cofactor, whose slices begin with the degree of the factor.
+        // This counts the product's share in a cofactor, whose slices begin with the degree of the
+        // factor.
         for (int d = 1; d < working_order; ++d) {
           if (p.monomial < local_field_size(d + 1)) total += static_cast<double>(space.count(d));
         }

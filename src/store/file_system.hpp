@@ -24,7 +24,7 @@ class Descriptor {
   Descriptor(const std::filesystem::path& path, int flags, mode_t mode = 0644);
   /// Takes over an open descriptor.
   explicit Descriptor(int value) : value_(value) {}
-  /// Another descriptor of the same open file; -1, with errno set, if that fails.
+  /// Makes another descriptor of the same open file; it is -1, with errno set, if that fails.
   static Descriptor duplicate(int of);
   ~Descriptor() { close(); }
   Descriptor(const Descriptor&) = delete;

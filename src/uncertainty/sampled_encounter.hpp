@@ -69,7 +69,7 @@ class SampledEncounter {
   double difference() const { return difference_; }
   double path_error() const { return error_; }
 
-  /// So many samples with a stream of random numbers.
+  /// The sums of `count` samples, drawn with one stream of random numbers.
   SampleSums sample(std::uint64_t stream, std::size_t count) const;
 
  private:

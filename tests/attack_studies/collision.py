@@ -24,7 +24,7 @@ def draw(source):
     speed = orbit.norm(chief[3:])
     rate = np.sqrt(scene.mu / orbit.norm(chief[:3]) ** 3)
     if source.chance(0.5):
-        # Another orbit that meets the chief's at an angle.
+        # The deputy has another orbit, which meets the chief's at an angle.
         angle = REAL(source.logarithmic(1e-3, 3))
         across = np.cross(axes[2], chief[3:] / speed)
         turned = np.cos(angle) * chief[3:] + np.sin(angle) * speed * (
@@ -35,7 +35,7 @@ def draw(source):
                             dtype=REAL)
     meeting = np.concatenate([chief[:3] + miss, chief[3:] + velocity])
     if orbit.perigee(scene.mu, meeting) < REAL(1.02) * scene.radius:
-        # Not through the ground: one that goes the chief's way.
+        # An orbit through the ground is replaced by one that goes the chief's way.
         meeting[3:] = chief[3:]
     if source.chance(0.4):
         # Of the chief's period, so that it comes back to where it was.

@@ -65,7 +65,8 @@ class Moment:
             start = Moment.of("utc", day, 0)
             since = self.since(start)
             if since >= 0:
-                # Before 1972 the rate is 3e-8: the fraction needs no more than itself.
+                # Before 1972 TAI - UTC grows at a rate of 3e-8, so that the fraction need not be
+                # refined.
                 fraction = 0.0 if day.year >= 1972 else min(float(since / 86400), 0.99999999)
                 return tai_minus_utc(day, fraction)
         raise AssertionError("no day of UTC")

@@ -186,7 +186,7 @@ class EarthScene(Scene):
 
     def _draw_chief(self, largest_e):
         super()._draw_chief(largest_e)
-        # Those of the orbit that is flown, for the scene's axes may be others.
+        # The elements are those of the orbit that is flown, because the scene's axes may be others.
         k = orbit.elements_of(self.mu, self.chief)
         self.i, self.e = k["i"], orbit.eccentricity(self.mu, self.chief)
         self.has_node = True

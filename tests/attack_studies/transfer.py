@@ -54,7 +54,7 @@ def draw(source):
     if extra == "revolutions":
         table["revolutions"] = source.one_of([[-1, 1], [1], [0, 1], [-1]])
     if extra == "keep-out" or source.chance(0.1):
-        # Neither end lies in it.
+        # Neither end of the transfer may lie in the ellipsoid.
         flights = Flights(scene)
         ends = [scene.start - scene.chief] + [flights.end(t) - flights.chief(t)
                                               for t in scene.times]

@@ -44,7 +44,7 @@ def draw_burn(scene, table, speed):
 
 
 def burn_covariance(state, table, frame, share=1.0):
-    """After Gates, of the parts proportional to the change, to first order."""
+    """The covariance of Gates's model to first order, with the parts proportional to the change."""
     v = np.array(table["velocity_change_m_s"])
     m, d = table["magnitude"], np.radians(table["direction_deg"])
     along = (m * m - d * d) * np.outer(v, v) + d * d * v @ v * np.eye(3)

@@ -134,7 +134,7 @@ TEST_F(Reproducibility, OtherDirectory) {
   options.directory = other.path();
   expect_same(expected, results(options), "another working directory");
   EXPECT_TRUE(std::filesystem::is_empty(other.path()));
-  // And as the scene's neighbour, with the paths that a user types.
+  // The results are the same beside the scene too, with the paths that a user types.
   succeed({"run", "scene.toml", "-q", "-o", "results"});
   expect_same(expected, contents(directory_ / "results"), "relative paths");
 }
@@ -202,7 +202,7 @@ TEST_F(Reproducibility, LocaleWithADecimalComma) {
     GTEST_SKIP() << "no locale with a decimal comma can be made: localedef or the definition de_DE "
                     "is missing (the package locales)";
   }
-  // That it is in force is seen by a program that asks the C library for its decimal point.
+  // A program that asks the C library for its decimal point shows that the locale is in force.
   const std::string asked =
       "test \"$(LC_ALL=de_DE.UTF-8 LOCPATH='" + locales.string() + "' locale decimal_point)\" = ,";
   ASSERT_EQ(std::system(asked.c_str()), 0);

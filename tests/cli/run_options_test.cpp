@@ -206,7 +206,8 @@ TEST_F(Repetition, LeavesOldResultsWhereTheSecondRunFails) {
   const std::string summary = content(directory_ / "results/summary.json");
   const std::string jet = content(directory_ / "results/gauss8/jet.csv");
   expect_error({"run", "quick.toml", "-o", "results", "--set", "jet.order=0"}, 3, {"jet.order"});
-  // Enough for the first small files, not for the jet of order 5: a disk that fills half-way.
+  // This is enough for the first small files, but not for the jet of order 5, as on a disk that
+  // fills half-way.
   options_.largest_file = 20000;
   expect_error({"run", "quick.toml", "-o", "results", "--set", "jet.order=5"}, 5,
                {"results/gauss8/", "File too large"});

@@ -67,7 +67,8 @@ TEST_F(Savings, ForceTerms) {
   // J3 needs all that J2 does: only without both there are fewer operations.
   expect_saving(run({"system.J2=null", "system.J3=null"}), without_J3, "J2", counters);
   EXPECT_TRUE(skips(run({"system.J2=null"}), "J2"));
-  // Above the highest that is present nothing is done, and each one there is dearer.
+  // Above the highest coefficient that is present nothing is done, and each further one that is
+  // present costs more.
   EXPECT_TRUE(skips(whole, "J4 to J20"));
   const Json with_J6 = run({"system.J4=-1.6e-6", "system.J5=-2.3e-7", "system.J6=5.4e-7"});
   EXPECT_TRUE(skips(with_J6, "J7 to J20"));

@@ -73,7 +73,8 @@ TEST_F(StandardInput, MistakesAreNamed) {
   EXPECT_EQ(hamjet({"check", "-"}).exit_code, 3);
 }
 
-// It is read once, though a scene of one stored jet is read twice (for it need not say a time).
+// Standard input is read once, although a scene of one stored jet is read twice (because it need
+// not say a time).
 TEST_F(StandardInput, IsReadOnce) {
   succeed({"run", "quick.toml", "-q"});
   const std::string timeless = quick_scene() +

@@ -98,7 +98,7 @@ TEST(TaylorFlow, TakesAsManyPowersAsATimeNeeds) {
     for (std::size_t i = 0; i < 6; ++i) {
       EXPECT_NEAR(state[i], static_cast<double>(end[i]), 1e-15) << time;
     }
-    // It does not reach much further, and reports this.
+    // The polynomial does not reach much further, and reports this.
     EXPECT_LT(std::abs(flow.within_reach(1, 20 * time)), 20 * std::abs(time));
   }
 }

@@ -185,7 +185,7 @@ TEST(FlowIdentities, LinearSystems) {
             RC_ASSERT(test::largest_of_degree(component, degree) == 0.0);
           }
         }
-        // And its linear part is the exponential of J S t.
+        // The jet's linear part is the exponential of J S t.
         const Matrix<double> exact = test::hamiltonian_exponential<double>(matrix * flow.duration);
         const Matrix<double> linear = linear_part(jet);
         RC_ASSERT(test::largest_entry(linear - exact) <= 1e-12 * test::largest_entry(exact));

@@ -184,5 +184,5 @@ def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
     assert inside.sum() > (30 if coordinates == "flow-box" else 5)
     ratios = third.miss_m[inside] / expected[inside]
     assert np.abs(ratios - 1).max() < tolerance
-    # They are not the same numbers by one way as by the other.
+    # For small deviations the two ways do not give the same numbers.
     assert (np.abs(ratios - 1).max() > 1e-4) == (size_m < 1e5)

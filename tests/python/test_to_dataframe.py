@@ -91,7 +91,7 @@ def test_relative_states_are_the_file_of_eval(tmp_path, jet, frame):
         assert table[name][1] == numbers(expected[name])[0], name
     assert list(table["support"]) == list(found.support)
     assert (table["miss_estimate_m"] == found.miss_m).all()
-    # It is what evaluate_relative takes.
+    # The data frame is what evaluate_relative takes.
     again = jet.evaluate_relative(pandas.DataFrame(states, columns=found.columns)[
         list(reversed(found.columns))], frame=frame)
     assert (again.states == found.states).all()

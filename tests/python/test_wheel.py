@@ -60,7 +60,7 @@ def test_the_metadata_are_those_of_the_project(wheel):
     project = (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")
     assert said["Summary"] and f'DESCRIPTION "{said["Summary"]}"' in project
     assert any(line.startswith("numpy") for line in said.get_all("Requires-Dist"))
-    # It holds compiled code, of this interpreter.
+    # The wheel holds compiled code for this interpreter.
     assert made_for["Root-Is-Purelib"] == "false"
     assert f"cp{sys.version_info[0]}{sys.version_info[1]}-" in made_for["Tag"]
 

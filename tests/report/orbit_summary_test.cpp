@@ -81,7 +81,8 @@ TEST(OrbitSummary, AHyperbola) {
   EXPECT_NEAR(away.perigee.distance_km, q, 0.1);
   EXPECT_NEAR(away.lowest_km, 3 * q, 0.1);
   EXPECT_NEAR(kepler_summary(start(ta, -1), "duration_s = 60000").lowest_km, q, 0.1);
-  // After a minute it has come nearer by about the radial speed times it, and is far from perigee.
+  // After a minute the spacecraft has come nearer by about the radial speed times this minute, and
+  // is far from perigee.
   const double speed = mu / h * 2;
   EXPECT_NEAR(kepler_summary(start(ta, -1), "duration_s = 60").lowest_km, 3 * q - 60 * speed, 3);
   EXPECT_NEAR(kepler_summary(start(ta, 1), "duration_s = -60000").lowest_km, q, 0.1);

@@ -50,7 +50,8 @@ TEST(OwnScene, IsRead) {
   EXPECT_TRUE(scene.warnings.empty());
   ASSERT_TRUE(scene.own_system);
   EXPECT_EQ(scene.own_system->degrees_of_freedom, 1U);
-  // Its key holds the text, so that kept results of another system are not taken for its own.
+  // The scene's key holds the text, so that kept results of another system are not taken for its
+  // own.
   const Scene other = parse_scene(changed(pendulum, "1/4", "1/5"), "file.toml");
   EXPECT_NE(reference_key(scene, 2), reference_key(other, 2));
 }

@@ -55,7 +55,7 @@ class StudyText {
         add_all(field->C(n, m), field->S(n, m));
     }
   }
-  /// Its heights and densities stand for it.
+  /// The heights and densities stand for the profile.
   void add(const std::shared_ptr<const DensityProfile>&) {}
   /// The checksum of its file stands for it.
   void add(const std::shared_ptr<const EarthOrientation>&) {}

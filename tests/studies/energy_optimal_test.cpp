@@ -126,7 +126,7 @@ TEST(EnergyOptimal, ProfileIsThatOfTheCostates) {
   EXPECT_NEAR(change, least.change_m_s, 1e-4 * change);
 }
 
-// A thruster that is too weak is told by how much.
+// Where a thruster is too weak, the study tells by how much.
 TEST(EnergyOptimal, ThrusterTooWeakIsTold) {
   Scene scene = thrust_scene(10e3, {2.0, 5.0});
   scene.transfer->largest_thrust_m_s2 = 1e-6;

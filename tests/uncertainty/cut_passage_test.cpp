@@ -69,7 +69,7 @@ TEST(CutPassage, HasTheProbabilityOfAShortEncounter) {
 
 TEST(CutPassage, IsNoneWhereNothingPasses) {
   constexpr double s = 1e-6;
-  // Before and after the passage, beside it, and of spacecraft that keep company.
+  // There is no passage before or after it, beside it, or for spacecraft that keep company.
   EXPECT_FALSE(with_whole_passages(crossing(1e-3, s)));
   EXPECT_FALSE(with_whole_passages(crossing(-1e-3, s)));
   EXPECT_FALSE(with_whole_passages(crossing(0, 1e-3)));

@@ -374,7 +374,7 @@ TEST(PolynomialMoments, PinskersBoundHoldsOfTwoGaussians) {
     const double difference = std::erf(x / std::sqrt(2)) - std::erf(x / (s * std::sqrt(2)));
     const double bound = largest_error_of_probability(divergence_from_gaussian(wide, narrow));
     EXPECT_GE(bound, difference) << s;
-    // It is sharp to a factor: both are of the first order in s - 1.
+    // The bound is sharp to a factor: bound and difference are both of the first order in s - 1.
     if (s < 2) {
       EXPECT_LE(bound, 2 * difference) << s;
     }

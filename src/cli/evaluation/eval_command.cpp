@@ -90,7 +90,7 @@ std::string miss_covers(const EvalSource& jet) {
                          : ", and errors of the coefficients as the results state them");
 }
 
-/// The same of jets at several times, of which the last may be in coordinates of its own.
+/// The same text for jets at several times, of which the last may be in coordinates of its own.
 std::string miss_covers(const std::vector<EvalSource>& jets) {
   const std::string last = miss_covers(jets.back());
   const std::string first = miss_covers(jets.front());

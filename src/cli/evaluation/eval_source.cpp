@@ -81,7 +81,7 @@ std::vector<EvalSource> read_eval_sources(const EvalOptions& options) {
   const auto polynomials = io::read_stored_polynomials(options.directory, options.run);
   for (io::StoredJet& stored :
        read_noted_jets(options.directory, options.run, wanted_times(*options.time))) {
-    // Those of other coordinates are of the duration alone.
+    // Polynomials in other coordinates exist for the duration alone.
     const bool is_at_duration = polynomials && polynomials->duration == stored.duration;
     jets.push_back(source_of(is_at_duration ? *polynomials : std::move(stored)));
   }

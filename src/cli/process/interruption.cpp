@@ -156,7 +156,7 @@ UninterruptedWriting::UninterruptedWriting(Writing what) : what_(what) {
 }
 
 UninterruptedWriting::~UninterruptedWriting() {
-  // After partial results the line that says so is still to come.
+  // After partial results the line that says that they are partial is still to come.
   if (what_ != Writing::results) note_finished_part();
   phase = what_ != Writing::results ? computing : finished;
 }

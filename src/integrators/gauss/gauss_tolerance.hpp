@@ -19,7 +19,7 @@ struct StepTolerance {
   std::vector<double> unmet_by_degree;
   /// The lines of the last trial with finer steps; empty if nothing was tried.
   std::vector<JetAlongLine<Real>> finer_lines;
-  /// These lines with the steps of `tolerance`; empty if the last trial had another tolerance.
+  /// The lines of the last trial with the steps of `tolerance`; empty if it had another tolerance.
   std::vector<FlowJet<Real>> lines;
 };
 

@@ -239,7 +239,7 @@ class LaneIntegrator {
     }
   }
 
-  /// Not zero for lanes in which a slope at the new state is not finite.
+  /// A number that is not zero for lanes in which a slope at the new state is not finite.
   Orbits check_finite() const {
     Orbits sum(0.0);
     for (const Orbits& slope : start_slopes_) sum += slope - slope;

@@ -60,12 +60,12 @@ class Polynomials(Immutable):
 
     @property
     def coordinates(self) -> str:
-        """Those of the deviations at the start, where "auto" was asked for those that were chosen."""
+        """The coordinates of the deviations at the start; with "auto" those that were chosen."""
         return self._study.coordinates
 
     @property
     def end_coordinates(self) -> str:
-        """Those of the results."""
+        """The coordinates of the results."""
         return self._study.end_coordinates
 
     @property

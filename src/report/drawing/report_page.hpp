@@ -27,8 +27,8 @@ std::string section_html(const Chart& chart, ChartDrawer& drawer);
 /// A table in a box of its own, which scrolls where the window is too narrow. What it says stands
 /// above the box: a caption would be as narrow as its table. `caption`, `head` and `rows` are HTML.
 std::string table_html(std::string_view caption, std::string_view head, std::string_view rows);
-/// The same of rows of plain text, of which the first is the head, and the first of each the row's
-/// name.
+/// The same table from rows of plain text. The first row is the head, and the first cell of each
+/// row is its name.
 std::string table_html(std::string_view caption, const std::vector<std::vector<std::string>>& rows);
 /// Cells of a head, of a row's name and of its values, from plain text.
 std::string header_cells(const std::vector<std::string>& names);

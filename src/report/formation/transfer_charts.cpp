@@ -141,7 +141,8 @@ Chart velocity_change_chart(const TransferResult& result) {
       result, "second impulse", 4,
       part([](const TransferAnswer& answer) { return answer.end_change_m_s.norm(); })));
   if (result.scene.order > 1) {
-    // Where it is as good it would only cover the line, and it lies behind that.
+    // The linear theory is drawn behind the line and only where it is worse: elsewhere the two
+    // would cover each other.
     constexpr double as_good = 0.01;
     ChartCurve linear = curve_over_time(
         result, "both, linear answer", 1, [](const TransferPoint& point) -> std::optional<double> {

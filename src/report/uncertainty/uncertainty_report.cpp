@@ -63,7 +63,7 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
                                                     const UncertainState& state) {
   std::vector<std::vector<std::string>> rows = {{"order"}};
   auto families = moments_families(result, at, state);
-  // Those have a table of their own.
+  // Families that are compared have a table of their own.
   std::erase_if(families, [](const MomentsFamily& family) { return family.is_compared; });
   for (const MomentsFamily& family : families) {
     const std::string where = family.polynomials == family.told_in

@@ -223,7 +223,7 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
     }
   }
   const auto compared = gaussianity_in_coordinates(result, state);
-  // Those that the orbit has not come last.
+  // Coordinates that do not exist on this orbit come last.
   const auto last = std::find_if(compared.rbegin(), compared.rend(),
                                  [](const auto& one) { return one.refusal.empty(); });
   constexpr double alike =
@@ -275,7 +275,7 @@ bool is_negentropy_sure(const std::vector<Cumulants>& by_order, std::size_t n) {
 }
 
 std::string negentropy_text(double negentropy, bool is_sure) {
-  // Below this the rounding of sums over some thousand coefficients is told.
+  // Smaller values are only the rounding of sums over some thousand coefficients.
   if (negentropy < 1e-12) return "0";
   const bool says_little = !is_sure && needs_more_than_leading_terms(negentropy);
   return fmt::format("{}{:.3g}", says_little ? "~" : "", negentropy);

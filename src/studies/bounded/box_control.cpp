@@ -225,7 +225,7 @@ class Keeper {
     return is_inside ? one.change_m_s() < other.change_m_s() : one.farthest < other.farthest;
   }
 
-  /// None where the polynomials have no answer.
+  /// The flown return; no value where the polynomials have no answer.
   std::optional<Flown> flown_return(const FlowJet<double>& jet, double duration) {
     Flown flown{{}, company_, {}};
     BoxReturn& told = flown.told;

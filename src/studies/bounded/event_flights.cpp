@@ -23,7 +23,7 @@ constexpr std::size_t flown_maxima = 4;
 /// The direction and its opposite, where neither is there yet: a degree contributes as much at
 /// both.
 void add_both(std::vector<Vector6>& directions, const Vector6& direction) {
-  // As far apart as two maxima are.
+  // Directions that are nearer to each other than two maxima are the same.
   constexpr double same = 0.1;
   for (const double side : {1.0, -1.0}) {
     const Vector6 one = side * direction;

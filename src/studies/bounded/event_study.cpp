@@ -103,7 +103,7 @@ class EventSearch {
 
   /// The least of the condition times `sign` between two times.
   Place nearest(double from, double to, int sign) const {
-    // Half of the digits: a minimum is flat.
+    // A minimum is flat, so that its place is known to half of the digits only.
     constexpr int bits = std::numeric_limits<double>::digits / 2;
     const auto [time, least] = minimum_between(
         "event", [&](double t) { return sign * at(t); }, from, to, bits);

@@ -112,7 +112,7 @@ void TransferPoints::find_singular_times(const ProgressCallback& progress) {
 
 std::optional<double> TransferPoints::singular_distance(double time) const {
   std::optional<double> nearest;
-  // Those of the first kind are the first.
+  // The singular times of the first kind come first.
   for (const SingularTime& singular : singular_times_) {
     if (singular.kind != kinds_.front()) break;
     const double distance = std::abs(singular.time - time);

@@ -318,7 +318,8 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
         uncertain_approach(lower, approach, scene.uncertainty->seed, units));
     UncertainApproach& told = result.approaches.back();
     told.spacecraft = both_at(lower, linear, approach.time, units);
-    // Those of whole passages, which the conjunction data message tells of, may be outside.
+    // Approaches of whole passages, which the conjunction data message tells of, may be outside of
+    // the window.
     told.is_in_window = told.time >= problem.from && told.time <= problem.to;
     if (told.plane) {
       told.is_cut = told.time_s - told.plane->passage < result.from_s ||

@@ -90,7 +90,8 @@ TEST_F(BadOutput, WithBothStreamsClosedTheFilesAreStillRight) {
 TEST_F(BadOutput, WithNoStreamsAtAllTheResultsAreWhole) {
   options_.has_input = false;
   options_.out = options_.err = Stream::closed;
-  // Not -q: what would be printed has no place to go, and must not end in a file of the results.
+  // Without -q: what would be printed has no place to go, and must not end in a file of the
+  // results.
   EXPECT_EQ(hamjet({"run", "quick.toml", "-o", "closed"}).exit_code, 5);
   EXPECT_EQ(hamjet({"run", "missing.toml"}).exit_code, 5);
   options_ = {};

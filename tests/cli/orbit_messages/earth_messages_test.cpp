@@ -62,7 +62,8 @@ TEST_F(EarthMessages, AreDatedAcrossALeapSecondAndTurned) {
 
 // A scene that begins where another one ends flies on: the end of both is the same state.
 TEST_F(EarthMessages, AreReadAgainInTheirAxes) {
-  // After the leap second, because without a table UT1 = UTC at each scene's own start.
+  // The scene starts after the leap second, because without a table UT1 = UTC at each scene's own
+  // start.
   const std::string whole =
       changed(across_a_leap_second, "2016-12-31T23:59:30", "2017-01-01T00:01:00");
   write("first.toml", changed(whole, "duration_s = 60", "duration_s = 20"));

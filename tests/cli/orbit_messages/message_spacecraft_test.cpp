@@ -64,7 +64,7 @@ TEST_F(MessageSpacecraft, IsTheSpacecraftOfTheScene) {
   EXPECT_DOUBLE_EQ(earth["drag_m2_kg"], 2.4 * 0.03 / 4);
   EXPECT_DOUBLE_EQ(earth["radiation_m2_kg"], 1.2 * 0.04 / 4);
   EXPECT_TRUE(summary["nominal_file"]["unused"].empty());
-  // It is written back, and read again.
+  // The spacecraft is written back, and read again.
   const string text = content(directory_ / "out/gauss8/end.opm");
   const io::OpmSpacecraft back = io::read_opm("end.opm", text).spacecraft;
   EXPECT_EQ(back.mass_kg, 4);

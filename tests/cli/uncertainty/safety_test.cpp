@@ -83,7 +83,8 @@ TEST_F(Safety, TellsEveryPairWithTheBurnDoneAndNotDone) {
   EXPECT_LT(done["flight_difference_m"].get<double>(), 0.5);
   EXPECT_EQ(done["nearer"], 0);
   EXPECT_NEAR(done["keep_out_flown_ratio"].get<double>(), 1, 1e-3);
-  // So slow a deputy comes within 400 m of the chief along the orbit, but no slower one.
+  // A deputy that drifts as the margin says comes within 400 m of the chief along the orbit, but no
+  // slower one does.
   const double deviations = done["keep_out_deviations"];
   EXPECT_LT(least_of_drift(0.001 * deviations, 1000), 400 + accuracy_m);
   EXPECT_GT(least_of_drift(0.001 * 0.9 * deviations, 1000), 400);

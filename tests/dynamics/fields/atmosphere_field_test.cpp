@@ -70,7 +70,7 @@ TEST(AtmosphereField, HigherDegreesBelongToTheSameFunction) {
   }
 }
 
-// Below and above the table, of the same origin as atmosphere_references.
+// Expected densities below and above the table come from the same program as atmosphere_references.
 TEST(AtmosphereField, TheDensityGoesOnBeyondItsTable) {
   const AtmosphereField field = harris_priester_field(false);
   const Extended low = test::expanded<Extended>(field, {3, 4.5, 3.515625}, 0)[0];

@@ -101,8 +101,8 @@ TEST(LeastImpulses, WhatIsNotTheLeastIsSeen) {
   refuses([](LeastImpulses& one) { one.impulses[0].change *= 1 + 1e-6; });
   refuses([](LeastImpulses& one) { one.impulses.clear(); });
   refuses([](LeastImpulses& one) { one.impulses[0].change[1] = std::nan(""); });
-  // They are tried on a costate that proves less, on a bound above the proved one, and on a wrong
-  // sum.
+  // The refusals are tried on a costate that proves less, on a bound above the proved one, and on a
+  // wrong sum.
   refuses([](LeastImpulses& one) { one.costate *= 0.999; });
   refuses([](LeastImpulses& one) { one.costate.setConstant(std::nan("")); });
   refuses([](LeastImpulses& one) { one.lower_bound *= 1.001; });

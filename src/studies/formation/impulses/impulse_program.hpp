@@ -24,7 +24,7 @@ class DirectedImpulses {
 
   /// The largest fraction of the change, at most 1, that impulses below the limit can make.
   double solve_share();
-  /// After solve_share: the least sum that makes all of the change.
+  /// Finds the least sum that makes all of the change. Comes after solve_share.
   void solve_sum();
 
   /// The multipliers y of the last solution: B_k^T y is the primer vector at the time k.
