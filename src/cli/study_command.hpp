@@ -22,9 +22,9 @@ bool keeps_earlier(const std::filesystem::path& directory, int exit_code);
 /// Says that the earlier results are kept.
 void note_kept(const std::filesystem::path& directory);
 
-/// Does the work, which shows its progress and stops at a signal, and makes its report; writes the
-/// files in place of earlier results, unless keeps_earlier, prints what the options ask for, and
-/// returns the exit code.
+/// Does the work of a study, which shows its progress and stops at a signal. Writes the files of
+/// its report in place of earlier results, unless keeps_earlier. Then prints what the options ask
+/// for, and returns the exit code.
 int report_study(const RunOptions& options, const std::string& scene_name,
                  const std::function<io::StudyReport(const ProgressCallback&)>& work);
 

@@ -149,7 +149,8 @@ class SplittingIntegration {
     time_ = checkpoint.time;
     start();
     if (taken_ > 0) {
-      // The nominal takes the joined kick, as it did in the earlier run.
+      // The last kick of a step and the first of the next are joined. The nominal takes this kick
+      // as it did in the earlier run.
       for (std::size_t i = 0; i < n_; ++i) {
         *lost(i) = checkpoint.lost[i];
         *lost(n_ + i) = checkpoint.lost[n_ + i];

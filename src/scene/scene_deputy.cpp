@@ -15,8 +15,8 @@ const TableDescription& deputy_table() {
                           {orbits}}}}),
       "The second satellite at the start: relative to the chief, or by its own orbit in the keys "
       "of "
-      "`[nominal]`, all of one form, of the same moment and in the same axes. The frame is that of "
-      "its motion too. With `[uncertainty.collision]` it may be anywhere, at any speed."};
+      "`[nominal]`, all of one form, of the same moment and in the same axes. Its motion is told "
+      "in the same frame. With `[uncertainty.collision]` it may be anywhere, at any speed."};
   return table;
 }
 

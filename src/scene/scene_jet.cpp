@@ -118,7 +118,7 @@ std::optional<std::size_t> read_arcs(const TableReader& jet) {
 
 namespace {
 
-/// Kept for the table, which refers to its texts.
+/// The help of the key `variables`. The string is kept because the table only refers to its texts.
 const std::string& help_of_variables() {
   static const std::string text = [] {
     std::string words =

@@ -70,7 +70,7 @@ const TableDescription& safety_table() {
         form::words(fmt::format("up to {} tables", most_safe_deputies),
                     form::array(form::table(safe_deputy_table()))),
         absent::other("none"), "further spacecraft of the formation"}},
-      "How near the spacecraft of a formation come to each other, every pair, where a burn fails."};
+      "How near the spacecraft of each pair of a formation come to each other if a burn fails."};
   return table;
 }
 

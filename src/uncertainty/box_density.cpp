@@ -14,8 +14,8 @@ constexpr double nothing = -std::numeric_limits<double>::infinity();
 /// The fraction of the bound of a box's mass that is added to the mass seen in it, so that no point
 /// has a weight of more than a hundred.
 constexpr double share_of_bound = 0.01;
-/// This fraction for a box in which none of the points sees a positive density, as for grazing
-/// entries at the edge of boxes in which all other paths leave.
+/// The same fraction for a box in which no point has a positive density. Grazing entries may lie at
+/// the edge of boxes in which all other paths leave.
 constexpr double share_of_unseen = 0.25;
 /// Quantities are assumed to spread in a box by this factor more than is seen. With 1,
 /// probabilities of slow encounters come out too low by up to 1e-2, with 2 and 4 by no more than

@@ -77,7 +77,8 @@ TEST_F(LongMotion, PoincareWritesTheEventOfAScene) {
   // Time and six components, of 210 monomials each.
   const Table map = read_table(directory_ / "out/apsis-poincare/event-map.csv");
   EXPECT_EQ(map.rows.size(), 7U * 210);
-  // Fewer within the duration, and keys of other surfaces, are refused.
+  // A number of events that the duration does not hold is refused, and so are keys of other
+  // surfaces.
   for (const auto& [keys, message] : std::vector<std::pair<std::string, std::string>>{
            {"surface = \"apsis\"\nnumber = 7\n", "the chief has 6; must be at most 6"},
            {"surface = \"distance\"\n", "event.distance_km: missing"},

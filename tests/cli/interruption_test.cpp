@@ -96,8 +96,8 @@ TEST_F(Interruption, BetweenFiguresAndReportTheFiguresStay) {
   EXPECT_TRUE(std::filesystem::exists(directory_ / "out/quick/report.html"));
 }
 
-// The signals come at times from the very start to the second in which the command is deep at work;
-// each command would take minutes.
+// Each command would take minutes. The signals come at times that range from its very start to a
+// second in which it is deep at work.
 TEST_F(Interruption, AtAnyMomentOfAnyCommand) {
   const std::string transfer =
       "transfer={frame=\"RTN\", count=10000, start={position_m=[0, -1000, 0]}, "

@@ -200,7 +200,8 @@ struct MovingOrbit {
   FlowJet<Extended> exact;
 };
 
-/// The flow about the moving centre, and the exact one by Kepler's problem, which is autonomous.
+/// Integrates the flow about the moving centre, and computes the exact one from Kepler's problem,
+/// which is autonomous.
 template <class Real>
 MovingOrbit<Real> moving_orbit(bool has_objects, double duration, int order) {
   const double start_time = -0.4;

@@ -24,7 +24,7 @@ def test_keywords_make_the_scene_that_they_say():
                                "argp_deg": 0, "ta_deg": 0}
     assert made["jet"] == {"order": 2, "duration_orbits": 0.1}
     assert made["system"]["model"] == "zonal-gravity" and made["system"]["J2"] == 1.0826e-3
-    # The Earth's, of JPL and of the IAU.
+    # The Earth's values: mu of JPL, the radius of the IAU.
     assert made["system"]["mu_km3_s2"] == pytest.approx(398600.4355, rel=1e-9)
     assert made["system"]["radius_km"] == pytest.approx(6378.1366, rel=1e-7)
     assert set(made) == {"title", "nominal", "jet", "system"}

@@ -112,8 +112,8 @@ TEST(CovarianceFile, OfAnotherMomentObjectOrFormIsRefused) {
                      {"uncertainty.file", "nowhere.cdm"}, ErrorKind::input_output);
 }
 
-// Six standard deviations of OBJECT1 are 6 sqrt(41.42 + 2533 + 70.98) m = 308.6 m, five digits of
-// the distance 71.4 m; of the velocity 0.457 m/s and 0.0744 m/s.
+// Six standard deviations of OBJECT1 are 6 sqrt(41.42 + 2533 + 70.98) m = 308.6 m, and five digits
+// of the distance are 71.4 m. For the velocity these are 0.457 m/s and 0.0744 m/s.
 TEST(CovarianceFile, OfAnotherStateIsRefused) {
   const auto with = [](const std::string& from, const std::string& to) {
     return earth_scene(changed(first_state, from, to)) + dated(closest) + of_conjunction;

@@ -48,7 +48,7 @@ TEST(JsonText, WritesAllThatUsersRead) {
       if (entry.path().extension() != ".cpp") continue;
       ++files;
       const std::string name = entry.path().filename().string();
-      // A string of TOML, and a manifest that only sweeps read.
+      // The first of these writes a string of TOML, the second a manifest that only sweeps read.
       if (name == "init_command.cpp" || name == "sweep_manifest.cpp") continue;
       EXPECT_EQ(test::content(entry.path()).find(".dump("), std::string::npos) << entry.path();
     }

@@ -111,8 +111,9 @@ TEST(DeputyMotion, TheExtremesAreFoundBetweenTheTimes) {
   EXPECT_GT(listed, 10 * nearest.state.position_m.norm());
 }
 
-// The flights go on from time to time, and each rounds its start: over fifteen revolutions they end
-// elsewhere than one flight does, by no more than the floor says.
+// The flight to each time starts where the one before ended, and rounds its start. Over fifteen
+// revolutions these flights therefore end elsewhere than a single flight, but by no more than the
+// floor says.
 TEST(DeputyMotion, TheFloorCountsTheFlights) {
   RelativeState start;
   start.position_m = {0, -1000, 0};

@@ -34,8 +34,8 @@ OptimalControlStudy transfer(Discretization form) {
   return study;
 }
 
-// The cost is n tan(pi/n) |a| / T, half of the integral of |u|^2, of order 2, from the study's own
-// guess.
+// Expected, from the study's own guess: the cost, half of the integral of |u|^2, is n tan(pi/n) |a|
+// / T, with an error of order 2.
 TEST(OptimalControlStudy, SolvesTheLoop) {
   for (const Discretization form : {Discretization::stormer, Discretization::midpoint}) {
     const OptimalControlResult result = run_study(loop(form), {});

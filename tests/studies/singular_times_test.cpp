@@ -174,9 +174,9 @@ TEST(SingularTimes, AClosePairIsTwoTimesOrSaysThatItIsNot) {
   }
   EXPECT_GT(apart[1e-3], 1e-6);
   EXPECT_LT(apart[1e-3], 5e-6);
-  // What is quadratic in J2 is a ten thousandth of it here.
+  // The part that is quadratic in J2 is a ten thousandth of the distance here.
   EXPECT_NEAR(apart[1e-3], apart[1e-1] / 100, 1e-3 * apart[1e-3]);
-  // Closer than rounding can tell: one time, which says so.
+  // Two times that are closer than rounding can tell are found as one, which says so.
   scene.system.J[2] = 1e-13;
   const auto found = search(scene, "F1", 12);
   ASSERT_EQ(found.size(), 2U);

@@ -17,7 +17,7 @@ struct EvalOptions {
   std::optional<std::string>
       standard_input;                     ///< text of standard input, if a scene is read from there
   std::optional<std::string> deviation;   ///< one deviation, numbers between commas
-  std::optional<std::string> deviations;  ///< a CSV file of them
+  std::optional<std::string> deviations;  ///< a CSV file of deviations
   std::optional<std::string> deputy;      ///< a scene, whose deputy it is
   std::optional<std::string> run;         ///< label of the integrator's run
   std::vector<std::string> overrides;     ///< key=value, of the scene

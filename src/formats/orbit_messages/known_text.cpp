@@ -12,8 +12,8 @@ struct KnownMessage {
 };
 
 constexpr std::string_view of_SGP4 =
-    "whose mean elements are right with SGP4 alone: must be a state that SGP4 makes of them, as an "
-    "OPM or OEM, or as position_km and velocity_km_s";
+    "whose mean elements are valid with SGP4 alone: must be a state that SGP4 computes from them, "
+    "as an OPM or OEM, or as position_km and velocity_km_s";
 
 constexpr std::string_view as_init_writes = "as hamjet init --from writes it";
 

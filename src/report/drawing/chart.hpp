@@ -44,7 +44,7 @@ struct ChartCurve {
   std::vector<std::pair<double, double>> points;
   std::vector<std::size_t> gaps;  ///< the line is broken before these points
   std::vector<double> ticks;      ///< where a short vertical stroke says that there is no value
-  std::vector<double> values;     ///< one a point: its colour in place of the curve's, or none
+  std::vector<double> values;  ///< values of the points, whose colours replace the curve's; or none
 };
 
 /// A straight line over the whole chart. Those of one title look alike and share an entry of the

@@ -250,7 +250,8 @@ TableView singular_times_table(const TransferResult& result) {
             &SingularTime::directions_lost);
   table.add_array("direction_inertial",
                   {"direction_inertial_x", "direction_inertial_y", "direction_inertial_z"}, "",
-                  "the unit vector, inertial, that is not commanded; of F1, of the final position",
+                  "the inertial unit vector of the direction that is not commanded; for F1 a "
+                  "direction of the final position",
                   &SingularTime::direction);
   table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
                   "the same unit vector along the chief's R, T, N at that time",

@@ -73,7 +73,7 @@ TableView collision_table(const CollisionResult& result) {
   table.add_scalar("equivalent_samples", "", "the number of plain samples that would tell as much",
                    p.equivalent_samples);
   table.add_scalar("change_from_lower_order", "",
-                   "the probability by polynomials of one order less, less that of this one",
+                   "the probability by polynomials of the next lower order, minus this probability",
                    p.change_from_lower_order);
   table.add_scalar("standard_error_of_change", "", "the standard error of that difference",
                    p.standard_error_of_change);

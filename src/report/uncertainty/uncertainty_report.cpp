@@ -218,7 +218,8 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
         escape_html(fmt::format("The {} after {}", state.name, time_text(result, last))),
         panels_html(charts, drawer), panels_html(histograms, drawer),
         table_html("Moments of each component", moments_rows(result, state)),
-        table_html("How far it is from Gaussian, and the linear theory from it",
+        table_html("How far the distribution is from Gaussian, and the linear theory from the "
+                   "distribution",
                    gaussian_rows(result, last, state)) +
             (result.parameter_effects.empty()
                  ? ""

@@ -204,8 +204,8 @@ void require_centre_of_mass(const TableReader& system, const std::optional<doubl
   if (!offset_km) {
     system.fail("gravity_file",
                 fmt::format("C(1,0) varies with time, got a file whose origin moves about the "
-                            "centre of mass, must be one with gravity_epoch in [system] "
-                            "or epoch in [ephemeris], or {}",
+                            "centre of mass, must have gravity_epoch in [system] or epoch in "
+                            "[ephemeris] beside it, or {}",
                             remedy));
   }
   if (std::abs(*offset_km) <= largest_origin_offset * radius_km) return;

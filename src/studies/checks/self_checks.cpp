@@ -185,9 +185,10 @@ void check_symplecticity(SelfCheck& check, const Scene& scene, CheckedSystem& sy
   }
   if (has_time_shift(run.statistics.left_out)) {
     return not_applicable(
-        check, fmt::format("a shift in time was put back, which is exact of the flow alone: the "
-                           "Poisson brackets miss symplecticity by {:.2g} at degree {}",
-                           largest->scaled, largest->degree));
+        check,
+        fmt::format("a shift in time was put back, which is exact for the true flow alone: the "
+                    "Poisson brackets miss symplecticity by {:.2g} at degree {}",
+                    largest->scaled, largest->degree));
   }
   const double steps = static_cast<double>(run.statistics.steps);
   const double linear_limit =

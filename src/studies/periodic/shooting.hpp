@@ -57,8 +57,8 @@ class Shooting {
   /// The gradient of a quantity by the columns, not of length 1.
   Vector<double> gradient(const OrbitQuantity& quantity, const OrbitNodes& nodes) const;
 
-  /// The solution of the equations with these further ones. Throws Error(numerical) where Newton's
-  /// method does not end within so many steps.
+  /// The solution of the equations together with the `further` ones. Throws Error(numerical) where
+  /// Newton's method does not end within `most_iterations` steps.
   Solution solve(const OrbitNodes& guess, const Equations& further, int most_iterations) const;
 
  private:

@@ -49,8 +49,8 @@ TEST_F(StoredPolynomials, OfFlowBoxesPredictAsIntegratedOnes) {
             content(directory_ / "plain" / label() / "jet.csv"));
   const Json summary = read_json(directory_ / "boxes/summary.json")["runs"][0]["polynomials"];
   EXPECT_EQ(summary["section"], "nodal");
-  // Poisson brackets of the exact flow vanish; the integration is right to 1e-12 and its error
-  // relative to the bracket's own terms is of that size, times what they cancel.
+  // Poisson brackets of the exact flow vanish; the integration is right to 1e-12. Relative to the
+  // bracket's own terms the error is of that size, times the factor by which these terms cancel.
   for (const Json& defect : summary["symplecticity_by_degree"]) {
     EXPECT_LT(defect["scaled"].get<double>(), 1e-10) << summary;
   }

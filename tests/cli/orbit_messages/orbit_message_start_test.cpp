@@ -197,7 +197,7 @@ TEST_F(OrbitMessages, AMessageGivenAsASceneIsNamed) {
                   "must be a scene that names it, as hamjet init --from writes it"});
     expect_error({command, "standard.oem"}, 3, {"no scene, got an orbit ephemeris message (OEM)"});
     expect_error({command, "vanguard.tle"}, 3,
-                 {"no scene, got two-line elements (TLE), whose mean elements are right with SGP4 "
+                 {"no scene, got two-line elements (TLE), whose mean elements are valid with SGP4 "
                   "alone: must be a state"});
   }
   write("tle.toml", from_message("opm_file = \"vanguard.tle\"\n"));

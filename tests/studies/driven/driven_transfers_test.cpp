@@ -104,7 +104,7 @@ TEST(DrivenTransfers, Transfer) {
     }
     ASSERT_TRUE(point.keep_out_ratio.has_value());
     EXPECT_NEAR(*point.keep_out_ratio, ratio, 1e-3 * ratio);
-    // The velocity at the end is right for the polynomials alone, to a part of their miss.
+    // The velocity at the end is that of the polynomials, and right only as far as they are.
     flight.change(point.best().end_change_m_s);
     EXPECT_LT((flight.relative().velocity_m_s - scene.transfer->end.velocity_m_s).norm(), 1e-3);
     // The Hamilton-Jacobi equation holds of a symplectic map, with the forces of any time.
