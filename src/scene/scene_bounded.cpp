@@ -83,7 +83,8 @@ const TableDescription& bounded_table() {
         "90 the pericentre turns ahead"},
        {"cross_track", form::between(-largest_part, largest_part),
         absent::value(preset.cross_track),
-        "what the node's difference takes it across the chief's plane, in parts of the size"},
+        "how far the difference in node takes the deputy across the chief's plane, in parts of the "
+        "size"},
        {"along_track", form::between(-1, 1), absent::value(preset.along_track),
         "how far it is ahead of the chief in the mean, in parts of the size"},
        {"revolutions", form::integer(fewest_revolutions, most_revolutions),

@@ -25,7 +25,8 @@ const TableDescription& collision_table() {
        {"event", form::choice({collision_event_names.begin(), collision_event_names.end()}),
         absent::value(collision_event_names[0]),
         "what counts as a collision: `nearer`, to be nearer than the radius at any time of the "
-        "window; `entry`, to become so, which a pair that begins so must first leave"},
+        "window; `entry`, to come nearer than the radius within the window, for which a pair that "
+        "begins nearer must first leave"},
        {"sampling",
         form::choice({collision_sampling_names.begin(), collision_sampling_names.end()}),
         absent::value(collision_sampling_names[0]),

@@ -22,7 +22,7 @@ const SceneKey study_key = {"study",
                             form::choice({"flow-jet", "canonical-transformation",
                                           "energy-conservation", "optimal-control"}),
                             absent::value("flow-jet"),
-                            "what is computed; the other three are of the paper"};
+                            "what is computed; the other three studies are those of the paper"};
 
 SceneKey required_table(std::string_view name, const TableDescription& table,
                         std::string_view help) {

@@ -141,7 +141,7 @@ std::vector<TableView> event_tables(const EventStudy& study) {
       "polynomials of time and state: the largest of several with deviations of one size.");
   table.add_scalar("verdict", "", "the outcome in words", event_verdict(study));
   table.add_scalar("condition", "", "the condition in words", condition_text(*study.scene.event));
-  table.add_scalar("number", "", "which of the chief's events it is, from 1",
+  table.add_scalar("number", "", "the number of the event among those of the chief, from 1",
                    study.scene.event->number);
   table.add_scalar("time_s", "s", "the time of the chief's event, since the start", study.time_s());
   table.add_scalar("time_canonical", "", "the same time, in the scene's canonical unit of time",

@@ -183,7 +183,7 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
   table.add("beyond_tolerance", "", "whether the highest order misses by more than the tolerance",
             &TransferPoint::is_beyond_tolerance);
   table.add("answer", "",
-            "which answer the velocity changes are of: the refined one, or that of an order",
+            "the answer that the velocity changes belong to: the refined one, or that of an order",
             answer_name);
   table.add("exceeds_impulse", "", "whether an impulse is above the scene's largest_impulse_m_s",
             &TransferPoint::exceeds_impulse);
@@ -372,7 +372,8 @@ TableView total_by_time_table(const TransferResult& result) {
             [=](Plan plan) { return plan.duration * unit; });
   table.add("total_change_m_s", "m/s", "the sum of the magnitudes of its impulses",
             &WaypointPlan::total_change_m_s);
-  table.add("forbidden", "", "what of the way the scene does not allow", &WaypointPlan::forbidden);
+  table.add("forbidden", "", "why the scene does not allow the way; empty where it does",
+            &WaypointPlan::forbidden);
   table.keep_in_csv({});
   const auto rows = result.waypoints ? result.waypoints->plans : std::vector<WaypointPlan>();
   return std::move(table).view(rows, {rows.size()});
