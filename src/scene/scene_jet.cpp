@@ -243,10 +243,11 @@ JetSettings read_jet(const TableReader& jet, const SystemSettings& system, Preci
   }
   if (!settings.coordinates.fit_each_other()) {
     jet.fail("end_coordinates",
-             fmt::format("at one end alone, got {} to {}, must be the same at both ends where one "
-                         "of them is flow-box or auto",
-                         in_quotes(name_of(settings.coordinates.start)),
-                         in_quotes(name_of(settings.coordinates.end))));
+             fmt::format(
+                 "different at the two ends, got {} to {}, must be the same at both ends where one "
+                 "of them is flow-box or auto",
+                 in_quotes(name_of(settings.coordinates.start)),
+                 in_quotes(name_of(settings.coordinates.end))));
   }
   return settings;
 }

@@ -114,7 +114,7 @@ TEST_F(Coordinates, AreAllComparedOnTheSameDeputies) {
             one["validity"]["times"]);
   for (const char* const of_both : {"flow-box", "auto"}) {
     expect_error({"validity", "two.toml", "--set", std::string("jet.coordinates=") + of_both}, 3,
-                 {"two.toml:", "jet.end_coordinates: at one end alone", of_both});
+                 {"two.toml:", "jet.end_coordinates: different at the two ends", of_both});
   }
 }
 

@@ -110,7 +110,7 @@ def test_mistakes_are_those_of_the_command(tmp_path, boxes):
     with pytest.raises(hamjet.SceneError) as error:
         hamjet.polynomials(SCENE, coordinates="polar")
     assert str(error.value).split("must be one of")[1] == expected.split("must be one of")[1]
-    with pytest.raises(hamjet.SceneError, match="jet.end_coordinates: at one end alone"):
+    with pytest.raises(hamjet.SceneError, match="jet.end_coordinates: different at the two ends"):
         hamjet.polynomials(SCENE, coordinates="flow-box", end_coordinates="nodal")
     with pytest.raises(hamjet.SceneError, match="orbit"):
         hamjet.polynomials(OSCILLATOR)

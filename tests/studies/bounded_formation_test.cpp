@@ -168,7 +168,7 @@ TEST(BoundedFormation, ASizeThatIsNotHeldIsMarked) {
     EXPECT_FALSE(deputy.is_held());
   }
   EXPECT_NE(io::bounded_verdict(formation).find(
-                "NOT HELD are the sizes of 1 of 2 deputies: of 10 km that was asked for"),
+                "NOT HELD are the sizes of 1 of 2 deputies: where 10 km was asked for"),
             std::string::npos)
       << io::bounded_verdict(formation);
   const io::StudyReport report = io::bounded_report(formation, {});

@@ -191,12 +191,12 @@ std::string sizes_text(const BoundedFormation& formation) {
   }
   if (worst == nullptr) return "";
   return fmt::format(
-      " {}: of {} that was asked for, {} by {} is {} over the first revolution and {} to {} within "
-      "the window{}.",
+      " {}: where {} was asked for, {} ({}) has a size of {} over the first revolution and {} to "
+      "{} within the window{}.",
       held == offered
           ? "Sizes are held to a quarter"
           : fmt::format("NOT HELD are the sizes of {} of {} deputies", offered - held, offered),
-      length_text(worst->wanted_m), "the one furthest from it", name_of(worst->rule),
+      length_text(worst->wanted_m), "the deputy furthest from it", name_of(worst->rule),
       length_text(worst->size_m), length_text(worst->least_size_m),
       length_text(worst->largest_size_m),
       std::abs(worst->last_size_m / worst->size_m - 1) > 0.01

@@ -41,7 +41,7 @@ std::string limit_text(const TransferPoint& point) {
                        velocity_text(point.best().largest_impulse_m_s()));
   }
   return point.enters_keep_out()
-             ? fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m",
+             ? fmt::format("its way comes within {:.3g} times the ellipsoid keep_out_m",
                            *point.keep_out_ratio)
              : "";
 }

@@ -47,7 +47,8 @@ void WayLimits::fly(const std::vector<double>& chief, const std::vector<double>&
 }
 
 std::string WayLimits::forbidden() const {
-  if (ratio_ < 1) return fmt::format("its way comes to {:.3g} of the ellipsoid keep_out_m", ratio_);
+  if (ratio_ < 1)
+    return fmt::format("its way comes within {:.3g} times the ellipsoid keep_out_m", ratio_);
   if (surface_ && lowest_ < *surface_) {
     return fmt::format("its way passes {:.6g} km below the surface",
                        (*surface_ - lowest_) * both_.scene().units.length_km);
