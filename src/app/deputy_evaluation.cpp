@@ -8,7 +8,7 @@
 #include "../integrators/concurrent_tasks.hpp"
 #include "../studies/checks/flight_checks.hpp"
 #include "../studies/exact_flow.hpp"
-#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/formation/charts/deputy_flows.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/formation/single_transfer.hpp"
 #include "../studies/stopwatch.hpp"

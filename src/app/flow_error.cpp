@@ -8,7 +8,7 @@
 #include "../algebra/raise_to.hpp"
 #include "../charts/coordinate_units.hpp"
 #include "../integrators/momentum_unit.hpp"
-#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/formation/charts/deputy_flows.hpp"
 #include "../studies/integration.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/charts/flow_box.hpp"

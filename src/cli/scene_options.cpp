@@ -13,7 +13,7 @@
 #include "../scene/scene_name.hpp"
 #include "../studies/arcs.hpp"
 #include "../studies/descriptions/method_description.hpp"
-#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/formation/charts/deputy_flows.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "../text/scene_refusal.hpp"

@@ -1,7 +1,7 @@
 #include <numeric>
 #include <utility>
 
-#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/formation/charts/deputy_flows.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "jet_description.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "../dynamics/celestial_bodies.hpp"
-#include "../scene/scene_elements.hpp"
+#include "../scene/starts/scene_elements.hpp"
 #include "../scene/tables/table_description.hpp"
 #include "../studies/descriptions/system_description.hpp"
 #include "../text/scene_message.hpp"

@@ -12,7 +12,7 @@
 
 #include "../formats/jet_description.hpp"
 #include "../formats/stored_coefficients.hpp"
-#include "../studies/formation/deputy_flows.hpp"
+#include "../studies/formation/charts/deputy_flows.hpp"
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "refusal.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../text/whole_number.hpp"
-#include "scene_elements.hpp"
+#include "starts/scene_elements.hpp"
 #include "tables/key_unit.hpp"
 
 namespace hamjet::io {

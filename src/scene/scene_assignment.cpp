@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "scene_manoeuvres.hpp"
+#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {

@@ -14,7 +14,7 @@
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/formats/orbit_message_axes.hpp"
-#include "scene_nominal_file.hpp"
+#include "starts/scene_nominal_file.hpp"
 #include "systems/scene_earth.hpp"
 
 namespace hamjet::io {

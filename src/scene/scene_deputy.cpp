@@ -1,4 +1,4 @@
-#include "scene_manoeuvres.hpp"
+#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 #include "systems/scene_spacecraft.hpp"
 

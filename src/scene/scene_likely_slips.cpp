@@ -7,7 +7,7 @@
 #include "../dynamics/celestial_bodies.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
-#include "scene_elements.hpp"
+#include "starts/scene_elements.hpp"
 #include "scene_sections.hpp"
 
 namespace hamjet::io {

@@ -7,7 +7,7 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
-#include "scene_manoeuvres.hpp"
+#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 #include "systems/scene_earth.hpp"
 #include "systems/scene_own_system.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../formats/relative_frame_text.hpp"
-#include "../studies/formation/coordinate_deviations.hpp"
+#include "../studies/formation/charts/coordinate_deviations.hpp"
 #include "../text/letter_case.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"

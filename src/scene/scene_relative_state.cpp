@@ -15,7 +15,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
-#include "scene_orbit.hpp"
+#include "starts/scene_orbit.hpp"
 #include "scene_relative_motion.hpp"
 #include "systems/scene_earth.hpp"
 

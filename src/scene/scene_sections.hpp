@@ -11,7 +11,7 @@
 #include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
 #include "hamjet/formats/gravity_field_file.hpp"
-#include "scene_nominal_file.hpp"
+#include "starts/scene_nominal_file.hpp"
 #include "study_reader.hpp"
 #include "tables/scene_table.hpp"
 

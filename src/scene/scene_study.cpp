@@ -9,7 +9,7 @@
 #include "document/scene_text.hpp"
 #include "hamjet/error.hpp"
 #include "scene_name.hpp"
-#include "scene_of_conjunction.hpp"
+#include "starts/scene_of_conjunction.hpp"
 #include "scene_sections.hpp"
 #include "study_reader.hpp"
 #include "systems/scene_earth.hpp"

@@ -9,7 +9,7 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../text/scene_message.hpp"
-#include "scene_manoeuvres.hpp"
+#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {

@@ -9,7 +9,7 @@
 #include "../dynamics/frozen_system.hpp"
 #include "along_time_recorder.hpp"
 #include "arcs.hpp"
-#include "formation/charted_jet.hpp"
+#include "formation/charts/charted_jet.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "integration.hpp"
 #include "map_analysis.hpp"

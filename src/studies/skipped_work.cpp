@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "formation/charted_jet.hpp"
+#include "formation/charts/charted_jet.hpp"
 #include "hamjet/integrators/flow_problem.hpp"
 
 namespace hamjet {

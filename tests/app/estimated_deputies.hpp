@@ -16,7 +16,7 @@
 #include "app/jet_evaluation.hpp"
 #include "formats/jet_description.hpp"
 #include "hamjet/error.hpp"
-#include "studies/estimated_jets.hpp"
+#include "studies/estimates/estimated_jets.hpp"
 
 // Random deputies, in all coordinates of polynomials and frames of positions and in any units,
 // whose estimated misses are compared with true ones; see deputy_states.hpp.

@@ -102,7 +102,8 @@ TEST_F(Init, NothingIsReplaced) {
 }
 
 TEST_F(Init, MistakesAreNamed) {
-  expect_error({"init"}, 2, {"neither a kind nor --from", "geo, gto, leo, molniya, own, pair, zonal"});
+  expect_error({"init"}, 2,
+               {"neither a kind nor --from", "geo, gto, leo, molniya, own, pair, zonal"});
   expect_error({"init", "leo", "--from", "x.opm"}, 2, {"a kind and --from"});
   expect_error({"init", "moon"}, 2, {"moon", "leo", "molniya"});
   expect_error({"init", "leo", "-o", "-"}, 2, {"--output: got -", "a scene is a file"});

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "fuzz_target.hpp"
-#include "scene/scene_of_conjunction.hpp"
+#include "scene/starts/scene_of_conjunction.hpp"
 #include "scene/study_reader.hpp"
 #include "scene/tables/scene_errors.hpp"
 

@@ -14,7 +14,7 @@
 #include "studies/bounded/frozen_orbit_study.hpp"
 #include "studies/bounded/mean_element_deputies.hpp"
 #include "studies/bounded/relative_orbit_extent.hpp"
-#include "studies/formation/deputy_flows.hpp"
+#include "studies/formation/charts/deputy_flows.hpp"
 
 namespace hamjet {
 namespace {

@@ -1,4 +1,4 @@
-#include "studies/formation/coordinate_deviations.hpp"
+#include "studies/formation/charts/coordinate_deviations.hpp"
 
 #include <gtest/gtest.h>
 

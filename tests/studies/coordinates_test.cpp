@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "../../src/studies/exact_flow.hpp"
-#include "../../src/studies/formation/deputy_flows.hpp"
+#include "../../src/studies/formation/charts/deputy_flows.hpp"
 #include "../../src/studies/formation/single_transfer.hpp"
 #include "../charts/orbits.hpp"
 #include "formation_scenes.hpp"

@@ -17,7 +17,7 @@
 #include "hamjet/studies/validity.hpp"
 #include "studies/comparison/convergence_fit.hpp"
 #include "studies/flights/extreme_distance.hpp"
-#include "studies/formation/charted_boundary_values.hpp"
+#include "studies/formation/charts/charted_boundary_values.hpp"
 #include "studies/formation/impulses/impulse_search.hpp"
 #include "studies/formation/impulses/least_impulses.hpp"
 #include "studies/formation/lambert.hpp"

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "../../src/studies/exact_flow.hpp"
-#include "../../src/studies/formation/deputy_flows.hpp"
+#include "../../src/studies/formation/charts/deputy_flows.hpp"
 #include "../../src/studies/formation/single_transfer.hpp"
 #include "../../src/studies/formation/validity/flown_deputies.hpp"
 #include "../../src/studies/formation_scale.hpp"

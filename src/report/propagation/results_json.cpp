@@ -7,7 +7,7 @@
 #include "../../store/json_values.hpp"
 #include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
-#include "../../studies/formation/charted_jet.hpp"
+#include "../../studies/formation/charts/charted_jet.hpp"
 #include "../../studies/reference.hpp"
 #include "../study_checks.hpp"
 #include "hamjet/report/results.hpp"

@@ -6,7 +6,7 @@
 #include "../../formats/results_names.hpp"
 #include "../../studies/checks/kept_tolerance.hpp"
 #include "../../studies/checks/run_warnings.hpp"
-#include "../../studies/formation/charted_jet.hpp"
+#include "../../studies/formation/charts/charted_jet.hpp"
 #include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "../scene_nominal_file.hpp"
+#include "../starts/scene_nominal_file.hpp"
 #include "../tables/scene_table.hpp"
 #include "hamjet/astronomy/instant.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"

@@ -10,7 +10,7 @@
 #include "../../poincare/bounded_family.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../flights/manoeuvred_flight.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../stopwatch.hpp"

@@ -11,7 +11,7 @@
 #include "../../poincare/nodal_flight.hpp"
 #include "../exact_flow.hpp"
 #include "../flights/extreme_distance.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/propagation.hpp"

@@ -6,7 +6,7 @@
 
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/validity/slice_maxima.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"

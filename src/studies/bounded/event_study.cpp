@@ -14,7 +14,7 @@
 #include "../checks/flight_checks.hpp"
 #include "../exact_flow.hpp"
 #include "../flights/manoeuvred_flight.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "event_flights.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "hamjet/charts/flow_section.hpp"
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/error.hpp"

@@ -10,7 +10,7 @@
 
 #include "../../algebra/raise_to.hpp"
 #include "../../astronomy/sunlight.hpp"
-#include "../formation/charted_jet.hpp"
+#include "../formation/charts/charted_jet.hpp"
 #include "kept_tolerance.hpp"
 
 namespace hamjet {

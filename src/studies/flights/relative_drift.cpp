@@ -7,7 +7,7 @@
 
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"

@@ -8,7 +8,7 @@
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
-#include "energy_optimal.hpp"
+#include "thrust/energy_optimal.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "least_assignment.hpp"

@@ -10,7 +10,7 @@
 #include "../flights/paced_times.hpp"
 #include "../flights/relative_drift.hpp"
 #include "../formation_scale.hpp"
-#include "deputy_flows.hpp"
+#include "charts/deputy_flows.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"

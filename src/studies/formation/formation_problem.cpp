@@ -6,7 +6,7 @@
 
 #include "../descriptions/method_description.hpp"
 #include "../earth_system.hpp"
-#include "coordinate_deviations.hpp"
+#include "charts/coordinate_deviations.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "single_transfer.hpp"

@@ -9,7 +9,7 @@
 #include "../../algebra/state_sums.hpp"
 #include "../../integrators/momentum_unit.hpp"
 #include "../exact_flow.hpp"
-#include "coordinate_deviations.hpp"
+#include "charts/coordinate_deviations.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "charted_boundary_values.hpp"
+#include "charts/charted_boundary_values.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/transfer.hpp"

@@ -15,7 +15,7 @@
 #include "budget_windows.hpp"
 #include "burns/finite_burns.hpp"
 #include "coasting_transfer.hpp"
-#include "energy_optimal.hpp"
+#include "thrust/energy_optimal.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"

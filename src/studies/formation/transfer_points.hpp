@@ -7,7 +7,7 @@
 #include "../../maps/hamilton_jacobi.hpp"
 #include "../kind_choice.hpp"
 #include "companion_flow.hpp"
-#include "deputy_flows.hpp"
+#include "charts/deputy_flows.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
 

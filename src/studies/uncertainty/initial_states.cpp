@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "../../uncertainty/track_axes.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"

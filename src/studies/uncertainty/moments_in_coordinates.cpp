@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"

@@ -11,7 +11,7 @@
 
 #include "../../algebra/singular_values.hpp"
 #include "../checks/flight_checks.hpp"
-#include "../formation/deputy_flows.hpp"
+#include "../formation/charts/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../nominal/nominal_period.hpp"

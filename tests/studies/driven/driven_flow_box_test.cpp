@@ -15,7 +15,7 @@
 #include "hamjet/charts/canonical_chart.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "studies/exact_flow.hpp"
-#include "studies/formation/deputy_flows.hpp"
+#include "studies/formation/charts/deputy_flows.hpp"
 #include "studies/formation/jets_about_time.hpp"
 #include "studies/random_direction.hpp"
 

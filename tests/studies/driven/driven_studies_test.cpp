@@ -17,7 +17,7 @@
 #include "studies/bounded/frozen_orbit_study.hpp"
 #include "studies/checks/flight_checks.hpp"
 #include "studies/exact_flow.hpp"
-#include "studies/formation/deputy_flows.hpp"
+#include "studies/formation/charts/deputy_flows.hpp"
 #include "studies/formation/deputy_motion.hpp"
 #include "studies/formation/single_transfer.hpp"
 #include "studies/formation/two_point_flight.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../deputy_flows.hpp"
+#include "../charts/deputy_flows.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/studies/validity.hpp"
 

@@ -9,7 +9,7 @@
 #include "../../checks/flight_checks.hpp"
 #include "../../formation_scale.hpp"
 #include "../../stopwatch.hpp"
-#include "../deputy_flows.hpp"
+#include "../charts/deputy_flows.hpp"
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
 #include "flown_deputies.hpp"

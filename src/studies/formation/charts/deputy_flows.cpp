@@ -7,12 +7,12 @@
 #include <cmath>
 #include <variant>
 
-#include "../descriptions/method_description.hpp"
-#include "formation_problem.hpp"
+#include "../../descriptions/method_description.hpp"
+#include "../formation_problem.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
-#include "jets_about_time.hpp"
+#include "../jets_about_time.hpp"
 
 namespace hamjet {
 namespace {

@@ -13,9 +13,9 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "studies/checks/error_promise.hpp"
-#include "studies/estimated_forces.hpp"
-#include "studies/estimated_jets.hpp"
-#include "studies/estimated_scenes.hpp"
+#include "studies/estimates/estimated_forces.hpp"
+#include "studies/estimates/estimated_jets.hpp"
+#include "studies/estimates/estimated_scenes.hpp"
 
 // How often an estimate is below the true error, and how often far above it, over random inputs:
 //   error_estimate_statistics [scenes|forces|jets|floors|deputies] [count] [first seed]

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hamjet/formats/orbit_message.hpp"
-#include "scene_sections.hpp"
+#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dynamics/harmonic_oscillator.hpp"
-#include "integrator_checks.hpp"
+#include "../integrator_checks.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
 

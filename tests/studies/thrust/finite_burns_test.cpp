@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "formation_scenes.hpp"
+#include "../formation_scenes.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "studies/formation/burns/burn_flight.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "formation_scenes.hpp"
+#include "../formation_scenes.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/transfer.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "../store/text_file.hpp"
-#include "../text/scene_message.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/astronomy/instant.hpp"
 #include "hamjet/error.hpp"

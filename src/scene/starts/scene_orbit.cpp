@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "../text/scene_message.hpp"
+#include "../../text/scene_message.hpp"
 #include "scene_elements.hpp"
 #include "scene_manoeuvres.hpp"
-#include "scene_sections.hpp"
-#include "systems/scene_earth.hpp"
+#include "../scene_sections.hpp"
+#include "../systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <span>
 
-#include "../../algebra/state_sums.hpp"
-#include "../exact_flow.hpp"
-#include "../jets_along_time.hpp"
-#include "formation_problem.hpp"
+#include "../../../algebra/state_sums.hpp"
+#include "../../exact_flow.hpp"
+#include "../../jets_along_time.hpp"
+#include "../formation_problem.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/generating_function.hpp"
-#include "single_transfer.hpp"
+#include "../single_transfer.hpp"
 
 namespace hamjet {
 namespace {

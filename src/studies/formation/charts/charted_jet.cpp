@@ -7,11 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "../../algebra/raise_to.hpp"
-#include "../../charts/coordinate_units.hpp"
-#include "../../integrators/momentum_unit.hpp"
-#include "../largest_coefficient.hpp"
-#include "../stopwatch.hpp"
+#include "../../../algebra/raise_to.hpp"
+#include "../../../charts/coordinate_units.hpp"
+#include "../../../integrators/momentum_unit.hpp"
+#include "../../largest_coefficient.hpp"
+#include "../../stopwatch.hpp"
 #include "deputy_flows.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"

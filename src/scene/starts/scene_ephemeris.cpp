@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "../dynamics/celestial_bodies.hpp"
-#include "../text/scene_message.hpp"
+#include "../../dynamics/celestial_bodies.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
-#include "scene_sections.hpp"
+#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "../dynamics/celestial_bodies.hpp"
-#include "../formats/orbit_messages/message_agreement.hpp"
-#include "../store/text_file.hpp"
-#include "../text/quantity_text.hpp"
-#include "../text/scene_message.hpp"
+#include "../../dynamics/celestial_bodies.hpp"
+#include "../../formats/orbit_messages/message_agreement.hpp"
+#include "../../store/text_file.hpp"
+#include "../../text/quantity_text.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
-#include "scene_sections.hpp"
+#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

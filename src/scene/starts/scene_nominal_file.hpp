@@ -6,7 +6,7 @@
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "tables/scene_table.hpp"
+#include "../tables/scene_table.hpp"
 
 namespace hamjet::io {
 

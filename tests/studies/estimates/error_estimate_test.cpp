@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "studies/estimated_jets.hpp"
-#include "studies/estimated_scenes.hpp"
+#include "studies/estimates/estimated_jets.hpp"
+#include "studies/estimates/estimated_scenes.hpp"
 #include "studies/formation_scenes.hpp"
 
 // The estimated error of random scenes beside the true one, from the reference in extended

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <span>
 
-#include "../../algebra/state_sums.hpp"
-#include "../../dynamics/costate_system.hpp"
-#include "../exact_flow.hpp"
-#include "formation_problem.hpp"
+#include "../../../algebra/state_sums.hpp"
+#include "../../../dynamics/costate_system.hpp"
+#include "../../exact_flow.hpp"
+#include "../formation_problem.hpp"
 #include "hamjet/algebra/composition.hpp"
-#include "single_transfer.hpp"
+#include "../single_transfer.hpp"
 
 namespace hamjet {
 namespace {

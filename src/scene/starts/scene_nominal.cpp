@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "../studies/descriptions/system_description.hpp"
-#include "../studies/earth_system.hpp"
-#include "../text/scene_message.hpp"
+#include "../../studies/descriptions/system_description.hpp"
+#include "../../studies/earth_system.hpp"
+#include "../../text/scene_message.hpp"
 #include "scene_orbit.hpp"
-#include "scene_sections.hpp"
-#include "systems/scene_earth.hpp"
+#include "../scene_sections.hpp"
+#include "../systems/scene_earth.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../dynamics/celestial_bodies.hpp"
-#include "../text/scene_message.hpp"
+#include "../../dynamics/celestial_bodies.hpp"
+#include "../../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"

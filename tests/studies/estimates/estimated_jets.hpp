@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "integrators/momentum_unit.hpp"
-#include "studies/estimated_scenes.hpp"
+#include "studies/estimates/estimated_scenes.hpp"
 #include "support/kepler_ellipse.hpp"
 
 // Random jets of orbits, of all orders and lengths and in any units, whose estimated errors are

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "../../charts/driven_flow_box.hpp"
-#include "../jets_along_time.hpp"
+#include "../../../charts/driven_flow_box.hpp"
+#include "../../jets_along_time.hpp"
 #include "hamjet/charts/deputy_flow.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/studies/propagation.hpp"

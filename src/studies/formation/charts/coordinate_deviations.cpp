@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "../random_direction.hpp"
+#include "../../random_direction.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/studies/propagation.hpp"
 
