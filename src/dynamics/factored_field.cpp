@@ -85,7 +85,19 @@ class MultipliedOut {
     }
   }
 
-  MonomialSum product(const MonomialSum& a, const MonomialSum& b) {
+  /// Differences such as x - 1 or x - y, of which digits would be lost where they are multiplied
+  /// out.
+  bool is_shift(const MonomialSum& sum) const {
+    return std::count_if(sum.begin(), sum.end(), [&](const auto& term) {
+             const Monomial& m = term.first;
+             return m.empty() ||
+                    (m.size() == 1 && m.begin()->first < inputs_ && m.begin()->second == 1);
+           }) > 1;
+  }
+
+  MonomialSum product(const MonomialSum& first, const MonomialSum& second) {
+    const MonomialSum a = is_shift(first) ? power_of_base(first, 1) : first;
+    const MonomialSum b = is_shift(second) ? power_of_base(second, 1) : second;
     MonomialSum result;
     if (a.size() * b.size() > most_monomials) {
       is_given_up_ = true;
@@ -116,6 +128,10 @@ class MultipliedOut {
         return {{result, Extended(pow(coefficient, exponent))}};
       }
     }
+    return power_of_base(base, exponent);
+  }
+
+  MonomialSum power_of_base(const MonomialSum& base, const Extended& exponent) {
     const auto known = std::find(bases_.begin(), bases_.end(), base);
     const auto place = static_cast<std::size_t>(known - bases_.begin());
     if (known == bases_.end()) bases_.push_back(base);

@@ -58,8 +58,8 @@ TEST(SystemText, CostsAsMuchAsTheSystemByName) {
 }
 
 // However J2 and J3 are written, what is multiplied out is the same: as many series as the force
-// written by hand, and its values. The problem of three bodies needs one for each square and power
-// and one for each product of the two common factors with x, y, z: 3 + 2 + 3.
+// written by hand, and its values. Differences such as x - 1 + mu are not multiplied out: beside
+// the smaller body their digits would be lost.
 TEST(SystemText, CostsAsMuchHoweverItIsWritten) {
   const DynamicalSystem named =
       zonal_gravity({1, Extended("0.9").convert_to<double>(), {{2, 1e-3}, {3, -2e-6}}});
@@ -90,19 +90,21 @@ TEST(SystemText, CostsAsMuchHoweverItIsWritten) {
       "(px^2 + py^2 + pz^2)/2 + y*px - x*py - (1 - mu)/sqrt((x + mu)^2 + y^2 + z^2)"
       " - mu/sqrt((x - 1 + mu)^2 + y^2 + z^2)";
   const DynamicalSystem bodies = make_system("bodies", text);
-  EXPECT_EQ(bodies.evaluated_list().nonlinear_operations(), 8U);
-  // The equations of motion by hand.
-  const double x = state[0], y = state[1], z = state[2];
+  EXPECT_LE(bodies.evaluated_list().nonlinear_operations(), 10U);
+  // The equations of motion by hand, a thousandth from the smaller body.
+  const std::vector<double> near = {0.989, 1e-4, -2e-4, 0.1, 0.9, 0.4};
+  const double x = near[0], y = near[1], z = near[2];
   const double a = 0.988 / std::pow(std::hypot(x + 0.012, y, z), 3);
   const double b = 0.012 / std::pow(std::hypot(x - 0.988, y, z), 3);
-  const std::vector<double> by_hand = {state[3] + y,
-                                       state[4] - x,
-                                       state[5],
-                                       state[4] - a * (x + 0.012) - b * (x - 0.988),
-                                       -state[3] - (a + b) * y,
+  const std::vector<double> by_hand = {near[3] + y,
+                                       near[4] - x,
+                                       near[5],
+                                       near[4] - a * (x + 0.012) - b * (x - 0.988),
+                                       -near[3] - (a + b) * y,
                                        -(a + b) * z};
-  const auto field = test::evaluate_list(bodies.vector_field, state);
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(field[i], by_hand[i], 4e-15) << i;
+  const auto field = test::evaluate_list(bodies.vector_field, near);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(field[i], by_hand[i], 1e-12 * (1 + std::abs(by_hand[i]))) << i;
 }
 
 // A vector field is the part of its lift where the adjoint variables vanish.
