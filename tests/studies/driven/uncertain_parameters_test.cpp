@@ -193,7 +193,7 @@ TEST(UncertainParameters, WhatMakesNoSenseIsRefused) {
               "that all spacecraft share");
   expect_says(refusal("position_m = [1, 1, 1]\nparameters = {drag_m2_kg = 1e-3}\n"
                       "parameter_covariances = {drag_m2_kg = [0, 2e-3, 0, 0, 0, 0]}\n"),
-              "no covariance");
+              "not positive semidefinite");
   expect_says(refusal("position_m = [1, 1, 1]\n[uncertainty.deputy]\n"
                       "parameters = {density_factor = 0.1}\n",
                       deputy),
