@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
+#include "starts/scene_manoeuvres.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -1,5 +1,5 @@
-#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
+#include "starts/scene_manoeuvres.hpp"
 #include "systems/scene_spacecraft.hpp"
 
 namespace hamjet::io {

@@ -7,8 +7,8 @@
 #include "../dynamics/celestial_bodies.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
-#include "starts/scene_elements.hpp"
 #include "scene_sections.hpp"
+#include "starts/scene_elements.hpp"
 
 namespace hamjet::io {
 namespace {

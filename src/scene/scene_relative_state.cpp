@@ -15,8 +15,8 @@
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
-#include "starts/scene_orbit.hpp"
 #include "scene_relative_motion.hpp"
+#include "starts/scene_orbit.hpp"
 #include "systems/scene_earth.hpp"
 
 namespace hamjet::io {

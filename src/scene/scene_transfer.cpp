@@ -9,8 +9,8 @@
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../text/scene_message.hpp"
-#include "starts/scene_manoeuvres.hpp"
 #include "scene_relative_motion.hpp"
+#include "starts/scene_manoeuvres.hpp"
 
 namespace hamjet::io {
 namespace {

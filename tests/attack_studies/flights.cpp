@@ -10,14 +10,14 @@
 
 namespace {
 
+using attack::dot;
 using attack::Earth;
 using attack::Field;
 using attack::Flight;
+using attack::norm;
 using attack::Real;
 using attack::State;
 using attack::Vector;
-using attack::dot;
-using attack::norm;
 
 /// A centre, whose field is that of an Earth unless it is null.
 Field field_of(const long double* centre, int highest, const long double* zonals, void* of_earth) {

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <vector>
 
+#include "../tables/scene_table.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "scene_nominal_file.hpp"
-#include "../tables/scene_table.hpp"
 
 // The state of a satellite from osculating elements. Size and shape of the ellipse, and the place
 // on it, may be given in several ways.

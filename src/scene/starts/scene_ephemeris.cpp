@@ -4,8 +4,8 @@
 
 #include "../../dynamics/celestial_bodies.hpp"
 #include "../../text/scene_message.hpp"
-#include "hamjet/formats/orbit_message.hpp"
 #include "../scene_sections.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "hamjet/formats/orbit_message.hpp"
 #include "../scene_sections.hpp"
+#include "hamjet/formats/orbit_message.hpp"
 
 namespace hamjet::io {
 

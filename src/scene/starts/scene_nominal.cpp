@@ -7,9 +7,9 @@
 #include "../../studies/descriptions/system_description.hpp"
 #include "../../studies/earth_system.hpp"
 #include "../../text/scene_message.hpp"
-#include "scene_orbit.hpp"
 #include "../scene_sections.hpp"
 #include "../systems/scene_earth.hpp"
+#include "scene_orbit.hpp"
 
 namespace hamjet::io {
 namespace {

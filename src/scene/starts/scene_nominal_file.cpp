@@ -11,9 +11,9 @@
 #include "../../store/text_file.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
+#include "../scene_sections.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/formats/orbit_message.hpp"
-#include "../scene_sections.hpp"
 
 namespace hamjet::io {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <optional>
 
+#include "../tables/scene_table.hpp"
 #include "hamjet/astronomy/epoch.hpp"
 #include "hamjet/dynamics/osculating_elements.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/studies/scene.hpp"
-#include "../tables/scene_table.hpp"
 
 namespace hamjet::io {
 

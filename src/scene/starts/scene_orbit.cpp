@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "../../text/scene_message.hpp"
-#include "scene_elements.hpp"
-#include "scene_manoeuvres.hpp"
 #include "../scene_sections.hpp"
 #include "../systems/scene_earth.hpp"
+#include "scene_elements.hpp"
+#include "scene_manoeuvres.hpp"
 
 namespace hamjet::io {
 namespace {

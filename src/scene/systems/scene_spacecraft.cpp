@@ -6,8 +6,8 @@
 
 #include "../../studies/earth_system.hpp"
 #include "../../text/scene_message.hpp"
-#include "../starts/scene_nominal_file.hpp"
 #include "../scene_sections.hpp"
+#include "../starts/scene_nominal_file.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "scene_atmosphere.hpp"
 

@@ -8,11 +8,11 @@
 #include "../exact_flow.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
-#include "thrust/energy_optimal.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "least_assignment.hpp"
 #include "nearest_pairs.hpp"
+#include "thrust/energy_optimal.hpp"
 #include "transfer_points.hpp"
 
 namespace hamjet {

@@ -15,7 +15,6 @@
 #include "budget_windows.hpp"
 #include "burns/finite_burns.hpp"
 #include "coasting_transfer.hpp"
-#include "thrust/energy_optimal.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
@@ -23,6 +22,7 @@
 #include "least_time.hpp"
 #include "other_revolutions.hpp"
 #include "single_transfer.hpp"
+#include "thrust/energy_optimal.hpp"
 #include "transfer_points.hpp"
 #include "waypoint_plan.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "../../maps/hamilton_jacobi.hpp"
 #include "../kind_choice.hpp"
-#include "companion_flow.hpp"
 #include "charts/deputy_flows.hpp"
+#include "companion_flow.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "single_transfer.hpp"
 

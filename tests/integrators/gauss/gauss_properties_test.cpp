@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/harmonic_oscillator.hpp"
 #include "../integrator_checks.hpp"
+#include "dynamics/harmonic_oscillator.hpp"
 #include "support/map.hpp"
 #include "support/random_series.hpp"
 

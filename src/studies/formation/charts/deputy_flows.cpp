@@ -9,10 +9,10 @@
 
 #include "../../descriptions/method_description.hpp"
 #include "../formation_problem.hpp"
+#include "../jets_about_time.hpp"
 #include "hamjet/charts/charted_map.hpp"
 #include "hamjet/charts/flow_box_states.hpp"
 #include "hamjet/error.hpp"
-#include "../jets_about_time.hpp"
 
 namespace hamjet {
 namespace {

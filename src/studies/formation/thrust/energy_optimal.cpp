@@ -11,11 +11,11 @@
 #include "../../flights/paced_times.hpp"
 #include "../../jets_along_time.hpp"
 #include "../formation_problem.hpp"
+#include "../impulses/impulse_search.hpp"
+#include "../single_transfer.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
-#include "../impulses/impulse_search.hpp"
-#include "../single_transfer.hpp"
 #include "thrust_feedback.hpp"
 #include "thrusted_flight.hpp"
 

@@ -8,10 +8,10 @@
 #include "../../exact_flow.hpp"
 #include "../../jets_along_time.hpp"
 #include "../formation_problem.hpp"
+#include "../single_transfer.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/generating_function.hpp"
-#include "../single_transfer.hpp"
 
 namespace hamjet {
 namespace {

@@ -9,8 +9,8 @@
 #include "../../../dynamics/costate_system.hpp"
 #include "../../exact_flow.hpp"
 #include "../formation_problem.hpp"
-#include "hamjet/algebra/composition.hpp"
 #include "../single_transfer.hpp"
+#include "hamjet/algebra/composition.hpp"
 
 namespace hamjet {
 namespace {
