@@ -95,9 +95,27 @@ class MultipliedOut {
            }) > 1;
   }
 
+  /// Whether terms of a sum may cancel, so that digits would be lost where it is multiplied by
+  /// another sum: (a - b)^2 is right to rounding of itself, a^2 - 2 a b + b^2 to that of a^2.
+  bool may_cancel(const MonomialSum& sum) const {
+    if (sum.size() < 2) return false;
+    return std::any_of(sum.begin(), sum.end(), [&](const auto& term) {
+      return term.second < 0 || std::any_of(term.first.begin(), term.first.end(), [&](auto& power) {
+               const auto& [atom, exponent] = power;
+               if (atom >= inputs_) return may_cancel(bases_[atom - inputs_]);
+               return exponent / 2 != floor(exponent / 2);
+             });
+    });
+  }
+
   MonomialSum product(const MonomialSum& first, const MonomialSum& second) {
-    const MonomialSum a = is_shift(first) ? power_of_base(first, 1) : first;
-    const MonomialSum b = is_shift(second) ? power_of_base(second, 1) : second;
+    const bool is_of_sums = first.size() > 1 && second.size() > 1;
+    const auto written = [&](const MonomialSum& sum) {
+      const bool is_kept = is_shift(sum) || (is_of_sums && may_cancel(sum));
+      return is_kept ? power_of_base(sum, 1) : sum;
+    };
+    const MonomialSum a = written(first);
+    const MonomialSum b = written(second);
     MonomialSum result;
     if (a.size() * b.size() > most_monomials) {
       is_given_up_ = true;

@@ -107,6 +107,20 @@ TEST(SystemText, CostsAsMuchHoweverItIsWritten) {
     EXPECT_NEAR(field[i], by_hand[i], 1e-12 * (1 + std::abs(by_hand[i]))) << i;
 }
 
+// x^2 - y is -2^-40 exactly at x = 3, and so is the force; multiplied out it would be the difference
+// of two numbers above a hundred.
+TEST(SystemText, KeepsTheDigitsOfASquaredDifference) {
+  SystemText text;
+  text.coordinates = {"x", "y"};
+  text.momenta = {"px", "py"};
+  text.hamiltonian = "(px^2 + py^2)/2 + (x^2 - y)^2";
+  const double difference = -std::ldexp(1.0, -40);
+  const std::vector<double> state = {3, 9 - difference, 0, 0};
+  const auto field = test::evaluate_list(make_system("valley", text).vector_field, state);
+  EXPECT_EQ(field[2], -12 * difference);
+  EXPECT_EQ(field[3], 2 * difference);
+}
+
 // A vector field is the part of its lift where the adjoint variables vanish.
 TEST(SystemText, LiftsAVectorField) {
   SystemText text;

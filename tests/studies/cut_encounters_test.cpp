@@ -14,15 +14,16 @@
 namespace hamjet {
 namespace {
 
-constexpr double radius_m = 10;
+constexpr double passage_radius_m = 10;
 constexpr double deviation_m = 20;
-constexpr double miss_m = 5;
+constexpr double passage_miss_m = 5;
 
 /// A deputy that crosses the chief's plane at the start, 5 m above the chief.
 Scene crossing_at_the_start() {
   Scene scene = kepler_chief(0, 7000, std::sqrt(std::pow(7000.0, 3) / 398600.4415), 2);
   scene.duration = 0.05;
-  scene.deputy = DeputySettings{RelativeFrame::rtn_inertial, {{miss_m, 0, 0}, {0, 0, 3000}}};
+  scene.deputy =
+      DeputySettings{RelativeFrame::rtn_inertial, {{passage_miss_m, 0, 0}, {0, 0, 3000}}};
   scene.ephemeris = EphemerisSettings{"2026-03-01T06:00:00", "UTC", "GCRF", "EARTH"};
   StateUncertainty state;
   Vector<double> deviations(6);
@@ -34,7 +35,7 @@ Scene crossing_at_the_start() {
   uncertainty.times = {0.05};
   uncertainty.samples = 0;
   CollisionWatch& collision = uncertainty.collision.emplace();
-  collision.radius_m = radius_m;
+  collision.radius_m = passage_radius_m;
   collision.from = 0;
   collision.to = 0.05;
   collision.has_window = true;
@@ -47,11 +48,11 @@ double straight_probability() {
   constexpr int steps = 10000;
   double sum = 0;
   for (int k = 0; k < steps; ++k) {
-    const double r = radius_m * (k + 0.5) / steps;
-    sum += r / variance * std::exp(-(r * r + miss_m * miss_m) / (2 * variance)) *
-           std::cyl_bessel_i(0.0, r * miss_m / variance);
+    const double r = passage_radius_m * (k + 0.5) / steps;
+    sum += r / variance * std::exp(-(r * r + passage_miss_m * passage_miss_m) / (2 * variance)) *
+           std::cyl_bessel_i(0.0, r * passage_miss_m / variance);
   }
-  return sum * radius_m / steps;
+  return sum * passage_radius_m / steps;
 }
 
 TEST(CutEncounters, TheMessageIsOfTheWholePassageAndTheHeadlineWarns) {

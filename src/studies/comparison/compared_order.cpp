@@ -9,6 +9,7 @@
 #include "../integration.hpp"
 #include "../nominal/nominal_recorder.hpp"
 #include "../reference.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
