@@ -89,8 +89,8 @@ const TableDescription& deputy_uncertainty_table() {
   static const TableDescription table = {
       joined<SceneKey>({covariance_frame_keys(absent::other("of `[uncertainty]`")),
                         state_uncertainty_keys(), uncertain_parameter_keys()}),
-      "How well the deputy's state at the start is known, independently of the chief's; RTN is of "
-      "its own orbit."};
+      "How well the deputy's state at the start is known, independently of the chief's; RTN are "
+      "the axes of the deputy's own orbit."};
   return table;
 }
 
