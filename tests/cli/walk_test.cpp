@@ -57,7 +57,7 @@ struct Number {
   std::string rest;
 };
 std::optional<Number> number_in(const std::string& word) {
-  const std::size_t begin = word.find_first_not_of("<>(");
+  const std::size_t begin = word.find_first_not_of("<>([");
   if (begin == std::string::npos) return std::nullopt;
   Number number;
   const char* const end = word.data() + word.size();

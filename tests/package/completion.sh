@@ -55,7 +55,7 @@ expect 'pdf' hamjet compare orbit.toml --plots pd
 expect 'pdf png' hamjet compare orbit.toml --plots =
 expect 'pdf' hamjet compare orbit.toml --plots = pd
 expect 'columns integrators keys kinds systems' hamjet list ''
-expect 'geo gto leo molniya pair zonal' hamjet init ''
+expect 'geo gto leo molniya own pair zonal' hamjet init ''
 expect "$commands" hamjet help ''
 expect 'RTN canonical curvilinear element-differences inertial relative-elements' hamjet eval out/scene --frame ''
 # Runs of a folder of results that have a jet.

@@ -194,15 +194,15 @@ def test_what_is_no_state_is_refused(jet):
         with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
             restore(function, *wrong)
     polynomials = hamjet.polynomials(FAR, coordinates="flow-box")
-    restore, (function, state, coefficients, rounding, error) = polynomials._study.__reduce__()
+    restore, (function, state, coefficients, *numbers) = polynomials._study.__reduce__()
     # Coordinates that there are not, those of one end alone, measured ones, and no section; and
     # none of them is a jet in positions and momenta.
     for wrong in ((99, 5), (5, 0), (6, 6), (3, 3)):
         with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
-            restore(function, state[:13] + wrong + state[15:], coefficients, rounding, error)
+            restore(function, state[:13] + wrong + state[15:], coefficients, *numbers)
     for wrong in (state[:15] + (None,) + state[16:], state[:14] + state[14:15] +
                   ((9,) + state[15][1:],) + state[16:]):
         with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
-            restore(function, wrong, coefficients, rounding, error)
+            restore(function, wrong, coefficients, *numbers)
     with pytest.raises(hamjet.UsageError, match="^pickle: this is no state"):
         restore("_restored_jet", state, coefficients)
