@@ -94,6 +94,7 @@ void TaylorFlow::choose_units() {
       exponent = std::ilogb(of_momenta);
     }
     const auto i = static_cast<int>(lane);
+    exponent = std::min(exponent, longest_exponents_[lane]);
     units_.set_lane(i, std::ldexp(1.0, exponent));
     // What is 0, as momenta at rest are, is measured by its change in that time, and an equilibrium
     // at the origin by nothing.
@@ -106,6 +107,30 @@ void TaylorFlow::choose_units() {
 }
 
 void TaylorFlow::expand(std::span<const double> times) {
+  constexpr int most_tries = 4;
+  longest_exponents_.fill(std::numeric_limits<int>::max());
+  for (int k = 0; k < most_tries; ++k) {
+    expand_in_units(times);
+    if (!shorten_overflowing_units()) return;
+  }
+}
+
+// At an equilibrium whose rates are not 0 but rounding a state takes 1e16 times as long to change
+// by its own size as the motion beside it does, and powers of such a unit overflow.
+bool TaylorFlow::shorten_overflowing_units() {
+  constexpr int less = 24;  // of 53 binary digits of a rate, in two or three tries
+  bool are_any = false;
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const auto i = static_cast<int>(lane);
+    const int k = powers_[lane];
+    if (std::isfinite((squares(k, false) + squares(k, true)).lane(i))) continue;
+    longest_exponents_[lane] = std::ilogb(units_.lane(i)) - less;
+    are_any = true;
+  }
+  return are_any;
+}
+
+void TaylorFlow::expand_in_units(std::span<const double> times) {
   constexpr int fewest = 4;
   const std::size_t size = system_->dimension();
   const Lanes spans = Lanes::of_lanes(

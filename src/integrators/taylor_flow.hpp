@@ -89,6 +89,9 @@ class TaylorFlow {
 
   /// Chooses the units of the lanes from the present states and rates.
   void choose_units();
+  void expand_in_units(std::span<const double> times);
+  /// Shortens the units of the lanes whose highest power is not finite; whether there were any.
+  bool shorten_overflowing_units();
   /// The sum of the squares of a power's coefficients, for positions or momenta, as fractions of
   /// the state.
   Lanes squares(int power, bool is_of_momenta) const;
@@ -102,7 +105,8 @@ class TaylorFlow {
   /// The lanes' units. Coefficients belong to powers (t / unit)^k, so that in any units of the
   /// system they are about as large as the state, and their squares neither vanish nor overflow.
   Lanes units_ = Lanes(1);
-  std::array<Lanes, 2> inverse_sizes_;  ///< for the positions and for the momenta
+  std::array<Lanes, 2> inverse_sizes_;          ///< for the positions and for the momenta
+  std::array<int, lanes> longest_exponents_{};  ///< of the units as powers of two
   std::array<int, lanes> powers_{};
   Lanes proved_;  ///< times that the last expansion is known to reach, if it ended early
 };

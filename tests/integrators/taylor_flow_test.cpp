@@ -130,6 +130,20 @@ TEST(TaylorFlow, IsAsRightInAnyUnitOfLength) {
 }
 
 // If the square of a distance is below binary64 and the force is not finite, there is no result.
+// An upright pendulum, at the double next to pi, where the force is rounding alone: its angle and
+// momentum from pi grow as sinh and cosh of the time.
+TEST(TaylorFlow, StartsAtAnEquilibriumThatIsRounded) {
+  const auto pendulum = [](const auto& q, const auto& p) { return p[0] * p[0] * 0.5 - cos(q[0]); };
+  const SharedSystem system = make_system("pendulum", 1, pendulum);
+  TaylorFlow flow(system);
+  const double pi = std::numbers::pi;
+  std::vector<double> states = {pi, 0};
+  flow.advance(states, ClockTime::epoch(), std::vector<double>{5});
+  // Roundings on the way, of an ulp of pi each, grow by as much as e^5.
+  EXPECT_NEAR(states[0], pi, 8 * 4.5e-16 * std::exp(5.0));
+  EXPECT_NEAR(states[1], 0, 8 * 4.5e-16 * std::exp(5.0));
+}
+
 TEST(TaylorFlow, MarksAForceThatIsNotFinite) {
   std::vector<double> states = {1e-200, 0, 0, 0, 1e100, 0};
   TaylorFlow{SharedSystem(kepler())}.advance(states, ClockTime::epoch(),

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/comparison.hpp"
 #include "support/errors.hpp"
 
@@ -57,6 +58,26 @@ TEST(OwnSystem, HasReferenceChecksAndGeneratingFunction) {
   for (const double error : *run.error_by_degree) EXPECT_LE(error, 100 * 1e-12);
   ASSERT_EQ(run.kinds.size(), 1U);
   EXPECT_TRUE(run.kinds[0].generating_function) << run.kinds[0].failure;
+}
+
+// Two equal oscillators turn into themselves. A linear flow has no degrees above the first: what a
+// rotation that is left out and put back left there was rounding, which checks compared with
+// itself.
+TEST(OwnSystem, ALinearFlowHasNoHigherDegrees) {
+  const Scene scene = io::parse_scene(R"(
+system = { model = "own", coordinates = ["x", "y"], momenta = ["px", "py"], hamiltonian = "(px^2+py^2+x^2+y^2)/2" }
+nominal = { coordinates = [0.7, 0.4], momenta = [0.1, -0.2] }
+jet = { order = 3, duration_canonical = 1 }
+)",
+                                      "oscillators.toml");
+  const PropagationResult result = propagate(scene);
+  const RunResult& run = result.runs.at(0);
+  EXPECT_TRUE(run.failed_checks.empty());
+  for (const Series<Extended>& component : run.jet) {
+    for (std::size_t k = component.space().first(2); k < component.size(); ++k) {
+      EXPECT_EQ(component[k], 0) << k;
+    }
+  }
 }
 
 TEST(OwnSystem, IsCompared) {

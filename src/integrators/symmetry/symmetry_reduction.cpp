@@ -11,6 +11,9 @@ std::optional<SymmetryReduction<Real>> SymmetryReduction<Real>::of(
   if (problem.symmetry == FlowSymmetry::none || problem.initial_jet || !has_jet) {
     return std::nullopt;
   }
+  // A linear flow has no degrees above the first, which a symmetry put back would fill with
+  // rounding.
+  if (problem.system->vector_field.is_linear_system()) return std::nullopt;
   SymmetryReduction result;
   result.rotation_ = RotationReduction<Real>::of(problem);
   // A flow that depends on the time does not commute with shifts in it.
