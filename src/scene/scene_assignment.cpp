@@ -74,6 +74,14 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                                                 "{}, must be beside thrust = \"impulses\"",
                                                 assignment.found("keep_apart_m")));
   }
+  const auto refuse_beside_thrust = [&](std::string_view key, bool is_there) {
+    if (!is_there || scene.transfer->thrust != TransferThrust::energy_optimal) return;
+    assignment.fail("", fmt::format("transfer.{}, got it beside a thrust that lasts, on whose ways "
+                                    "it is not looked at, must be left out of [transfer]",
+                                    key));
+  };
+  refuse_beside_thrust("keep_out_m", scene.transfer->keep_out_m.has_value());
+  refuse_beside_thrust("largest_impulse_m_s", scene.transfer->largest_impulse_m_s.has_value());
   settings.deputies = read_states<RelativeState>(
       assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         refuse_manoeuvres(table);

@@ -218,7 +218,7 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
           "may be wrong by {}{}.",
           name_of(result.coordinates), charted > misleading_probability ? "is not" : "is still",
           charted >= 1 ? "" : "up to ", probability_text(charted));
-    } else if (misleads) {
+    } else if (misleads && !result.scene.system.earth) {
       text += " In flow-box coordinates (jet.coordinates) a distribution stays Gaussian longer.";
     }
   }

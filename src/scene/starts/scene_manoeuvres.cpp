@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "../../store/text_file.hpp"
 #include "../../text/scene_message.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
@@ -14,6 +16,9 @@ namespace {
 
 constexpr std::string_view manoeuvre_file_key = "opm_file";
 constexpr std::string_view manoeuvre_choice_key = "manoeuvres";
+
+/// In canonical units, a hundredth of a second in a low orbit.
+constexpr double shortest_burn = 1e-5;
 
 enum class MessageManoeuvres { fly, leave_out };
 
@@ -41,6 +46,7 @@ class MessageManoeuvreReader {
       }
       set_change(told, one);
       one.mass_share = share_of_mass(told);
+      if (one.length < shortest_burn) become_impulse(one);
       result.push_back(one);
     }
     return result;
@@ -95,6 +101,16 @@ class MessageManoeuvreReader {
            fmt::format("along the axes of the state, {}, or RTN or TNW",
                        message_.metadata.reference_frame));
     }
+  }
+
+  /// An impulse at the mean time of the thrust. Of what a burn of length T does it misses n^2 T^2 /
+  /// 24, which is below rounding; its own flight would not resolve T beside the time of the clock.
+  static void become_impulse(Manoeuvre& one) {
+    const double s = one.mass_share;
+    // 1/s + 1/ln(1 - s), whose two terms cancel for small s.
+    const double mean = s < 1e-3 ? 0.5 + s / 12 : 1 / s + 1 / std::log1p(-s);
+    one.start += one.length * mean;
+    one.length = 0;
   }
 
   double share_of_mass(const OpmManoeuvre& told) {

@@ -1,7 +1,11 @@
 #include "manoeuvred_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
@@ -173,6 +177,21 @@ class ManoeuvredMotion {
   bool has_extremes_ = false;
 };
 
+/// A manoeuvre that the scene's end leaves out, or cuts, would be missed in silence.
+void require_manoeuvres_within(const Scene& scene, const std::vector<Manoeuvre>& manoeuvres,
+                               std::string_view owner) {
+  for (const Manoeuvre& one : manoeuvres) {
+    // An impulse at the end itself is behind what is asked for.
+    if (one.end() <= scene.duration * (1 + 1e-12)) continue;
+    const double seconds = scene.units.time_s;
+    throw Error(ErrorKind::scene,
+                fmt::format("{}.opm_file: a manoeuvre that ends {:.6g} s after the start, got a "
+                            "scene of {:.6g} s, must be within it: a longer jet.duration_s, or "
+                            "manoeuvres = \"leave-out\"",
+                            owner, one.end() * seconds, scene.duration * seconds));
+  }
+}
+
 }  // namespace
 
 DeputyMotion manoeuvred_motion(const Scene& scene, const ProgressCallback& progress) {
@@ -187,6 +206,8 @@ DeputyMotion manoeuvred_motion(const Scene& scene, const ProgressCallback& progr
         "nominal.opm_file: manoeuvres of a chief in the Earth's shadow, whose edges are those "
         "of its coasting orbit; must be without, or beside system.shadow = \"none\"");
   }
+  require_manoeuvres_within(scene, scene.manoeuvres, "nominal");
+  require_manoeuvres_within(scene, scene.deputy->manoeuvres, "deputy");
   return ManoeuvredMotion(scene, progress).run();
 }
 

@@ -122,6 +122,27 @@ TEST_F(ManoeuvreMessages, OtherCommandsRefuseThem) {
   expect_error({"check", "c.toml"}, 3, {"transfer.start.opm_file: a message with 2 manoeuvres"});
 }
 
+// A burn of a moment is the impulse in its middle, and none is left out by the scene's end.
+TEST_F(ManoeuvreMessages, ABurnOfAMomentIsAnImpulse) {
+  write("a.toml", transfer_scene);
+  succeed({"transfer", "a.toml", "-q", "-o", "out/a-transfer"});
+  const std::string impulses = content(directory_ / "out/a-transfer/deputy.opm");
+  write("out/a-transfer/deputy.opm",
+        changed(impulses, "MAN_DURATION = 0.000000000000000e+00 [s]", "MAN_DURATION = 1e-3 [s]"));
+  const Json flown = flown_for(5000);
+  EXPECT_EQ(flown["manoeuvres"], 1);
+  // It is half a millisecond later, in which the change of some metres a second moves by
+  // millimetres.
+  expect_arrival(flown, 0.05);
+  write("short.toml", transfer_scene.substr(0, transfer_scene.find("[nominal]")) +
+                          "[nominal]\nopm_file = \"out/a-transfer/chief.opm\"\n"
+                          "[deputy]\nopm_file = \"out/a-transfer/deputy.opm\"\n"
+                          "[jet]\norder = 2\nduration_s = 4000\n");
+  expect_error(
+      {"motion", "short.toml"}, 3,
+      {"deputy.opm_file: a manoeuvre that ends 5000 s after the start, got a scene of 4000 s"});
+}
+
 // The standard's example without its elements, which are not those of its state.
 TEST_F(ManoeuvreMessages, WhatCannotBeFlownIsSaidWithItsLine) {
   const std::string whole = io::standard_opm;
