@@ -120,10 +120,11 @@ void TaylorFlow::expand(std::span<const double> times) {
 bool TaylorFlow::shorten_overflowing_units() {
   constexpr int less = 24;  // of 53 binary digits of a rate, in two or three tries
   bool are_any = false;
+  const Lanes highest = squares(highest_power_, false) + squares(highest_power_, true);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const auto i = static_cast<int>(lane);
-    const int k = powers_[lane];
-    if (std::isfinite((squares(k, false) + squares(k, true)).lane(i))) continue;
+    // A lane that needed fewer powers is proved to be finite.
+    if (powers_[lane] < highest_power_ || std::isfinite(highest.lane(i))) continue;
     longest_exponents_[lane] = std::ilogb(units_.lane(i)) - less;
     are_any = true;
   }
