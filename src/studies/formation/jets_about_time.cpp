@@ -1,9 +1,9 @@
 #include "jets_about_time.hpp"
 
 #include <Eigen/Dense>
-#include <boost/math/constants/constants.hpp>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace hamjet {
 namespace {
@@ -18,9 +18,8 @@ using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Node j, from -1 to 1.
 long double node(Eigen::Index j) {
-  using boost::math::constants::pi;
   if (j == side) return 0;
-  return -std::cos(pi<long double>() * (static_cast<long double>(j) + 0.5L) / nodes);
+  return -std::cos(std::numbers::pi_v<long double> * (static_cast<long double>(j) + 0.5L) / nodes);
 }
 
 /// The numbers by which values at the nodes become coefficients of powers: row k is of power k.
@@ -53,12 +52,11 @@ std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
   std::vector<FlowJet<double>> result = {jet};
   for (int k = 1; k <= order; ++k) {
     FlowJet<double>& power = result.emplace_back();
+    const LongMatrix of_nodes = weights.row(k) / std::pow(static_cast<long double>(span), k);
     for (std::size_t c = 0; c < jet.size(); ++c) {
       Series<double> sum(jet[c].space_pointer());
       for (Eigen::Index j = 0; j < nodes; ++j) {
-        const auto weight =
-            static_cast<double>(weights(k, j) / std::pow(static_cast<long double>(span), k));
-        sum += at_nodes[static_cast<std::size_t>(j)][c] * weight;
+        sum += at_nodes[static_cast<std::size_t>(j)][c] * static_cast<double>(of_nodes(0, j));
       }
       power.push_back(std::move(sum));
     }
