@@ -59,14 +59,15 @@ Assessment assess(const FlowMap<double>& map, std::span<const double> widths,
   for (std::size_t c = 0; c < components; ++c) {
     std::vector<double> sizes(order + 1, 0);
     std::vector<double> own(widths.size(), 0);
-    for (std::size_t j = 1; j < space.size(); ++j) {
-      const auto exponents = space.exponents(j);
-      const double size = std::abs(map.jet()[c][j]) * largest_monomial(exponents, widths);
-      std::size_t degree = 0;
-      for (const auto e : exponents) degree += e;
-      sizes[degree] += size;
-      if (degree < order) continue;
-      for (std::size_t i = 0; i < widths.size(); ++i) own[i] += size * exponents[i];
+    for (std::size_t degree = 1; degree <= order; ++degree) {
+      const auto d = static_cast<int>(degree);
+      for (std::size_t j = space.first(d); j < space.first(d + 1); ++j) {
+        const auto exponents = space.exponents(j);
+        const double size = std::abs(map.jet()[c][j]) * largest_monomial(exponents, widths);
+        sizes[degree] += size;
+        if (degree < order) continue;
+        for (std::size_t i = 0; i < widths.size(); ++i) own[i] += size * exponents[i];
+      }
     }
     const double error = extrapolated(sizes);
     if (!std::isfinite(error)) {

@@ -30,8 +30,8 @@ struct SplitMap {
   /// Whether all are right to the tolerance, as far as estimates tell; not if there would be more
   /// domains than the limit.
   bool is_right = true;
-  std::size_t maps_made =
-      0;  ///< how many maps were asked for; those of boxes that were split count
+  /// How many maps were asked for; those of boxes that were split count.
+  std::size_t maps_made = 0;
 
   /// The largest estimated error.
   double error() const;
