@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "../../store/text_file.hpp"
+#include "../../studies/formation/burns/canonical_thruster.hpp"
 #include "../../text/scene_message.hpp"
 #include "hamjet/astronomy/earth_axes.hpp"
 #include "hamjet/astronomy/instant.hpp"
@@ -107,9 +108,7 @@ class MessageManoeuvreReader {
   /// 24, which is below rounding; its own flight would not resolve T beside the time of the clock.
   static void become_impulse(Manoeuvre& one) {
     const double s = one.mass_share;
-    // 1/s + 1/ln(1 - s), whose two terms cancel for small s.
-    const double mean = s < 1e-3 ? 0.5 + s / 12 : 1 / s + 1 / std::log1p(-s);
-    one.start += one.length * mean;
+    one.start += one.length * (s > 0 ? mean_share(-std::log1p(-s)) / s : 0.5);
     one.length = 0;
   }
 

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
+#include "studies/formation/burns/canonical_thruster.hpp"
 
-#include "studies/formation/burns/burn_flight.hpp"
+#include <gtest/gtest.h>
 
 namespace hamjet {
 namespace {

@@ -24,44 +24,7 @@ Eigen::Vector3d direction_of(const Eigen::Vector3d& change) {
 /// result.
 constexpr double tolerance_of_derivatives = 1e-11;
 
-/// The mean time of the change of a burn from mass 1 on, in parts of the time that would burn all
-/// of it: the time is 1 - m, the change is x = -ln m of the exhaust's speed, and the mean is
-/// 1 - (1 - exp(-x)) / x. Small x take its series, as the differences would lose their digits.
-double mean_share(double x) {
-  if (x > 1e-2) return 1 + std::expm1(-x) / x;
-  return x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x / 720))));
-}
-
-double mean_share_rate(double x) {
-  if (x > 1e-2) return (-std::expm1(-x) - x * std::exp(-x)) / (x * x);
-  return 1.0 / 2 - x * (1.0 / 3 - x * (1.0 / 8 - x * (1.0 / 30 - x / 144)));
-}
-
 }  // namespace
-
-CanonicalThruster::CanonicalThruster(const ThrusterSettings& settings, const MetricUnits& units)
-    : acceleration(settings.acceleration_m_s2 * units.time_s / units.velocity_m_s()) {
-  if (settings.exhaust_m_s) exhaust = *settings.exhaust_m_s / units.velocity_m_s();
-}
-
-double CanonicalThruster::length(double change, double mass) const {
-  if (!mass_falls()) return change / acceleration;
-  return -mass * exhaust / acceleration * std::expm1(-change / exhaust);
-}
-
-double CanonicalThruster::mass_after(double change, double mass) const {
-  return mass_falls() ? mass * std::exp(-change / exhaust) : mass;
-}
-
-double CanonicalThruster::centre(double change, double mass) const {
-  if (!mass_falls()) return length(change, mass) / 2;
-  return mass * exhaust / acceleration * mean_share(change / exhaust);
-}
-
-double CanonicalThruster::centre_rate(double change, double mass) const {
-  if (!mass_falls()) return 1 / (2 * acceleration);
-  return mass / acceleration * mean_share_rate(change / exhaust);
-}
 
 BurnFlight::BurnFlight(const Scene& scene, const ComputedProblem& problem,
                        const SharedSystem& burning, double duration)

@@ -1,32 +1,14 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "../../../dynamics/burning_system.hpp"
+#include "canonical_thruster.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/transfer.hpp"
 
 namespace hamjet {
-
-/// A thruster in canonical units; masses are parts of the full spacecraft.
-struct CanonicalThruster {
-  double acceleration = 0;  ///< the acceleration of the full spacecraft
-  /// Speed of the exhaust; infinite if the mass does not fall.
-  double exhaust = std::numeric_limits<double>::infinity();
-
-  CanonicalThruster(const ThrusterSettings& settings, const MetricUnits& units);
-  bool mass_falls() const { return exhaust < std::numeric_limits<double>::infinity(); }
-  /// How long a velocity change takes from a mass on, by the rocket equation.
-  double length(double change, double mass) const;
-  double mass_after(double change, double mass) const;
-  /// How long after its beginning the mean time of a burn's change is, and how fast this grows with
-  /// the change. As the thrust grows, such a burn acts as an impulse at that time up to the square
-  /// of its length.
-  double centre(double change, double mass) const;
-  double centre_rate(double change, double mass) const;
-};
 
 /// When a burn begins and ends, and the mass before it.
 struct BurnSpan {
