@@ -82,17 +82,16 @@ double miss_in_m(const EnergyOptimalAnswer& answer, const Scene& scene) {
   return std::max(answer.miss_m, answer.velocity_miss_m_s * metric_units(scene).time_s);
 }
 
-/// Newton's method on the flown misses, with the derivatives of the polynomials; empty if the
-/// answer was corrected, otherwise why not.
+/// Newton's method on the flown misses, of which `miss` is that of the last answer, with the
+/// derivatives of the polynomials; empty if the answer was corrected, otherwise why not.
 std::string refine(EnergyOptimalPolynomials& polynomials, const ThrustedFlight& flight,
-                   const Scene& scene, EnergyOptimalTransfer& transfer) {
+                   const Scene& scene, State miss, EnergyOptimalTransfer& transfer) {
   constexpr int most_flights = 12;
   EnergyOptimalAnswer answer = transfer.answers.back();
   if (!answer.failure.empty()) return answer.failure;
   try {
     for (int& flights = transfer.refinement_flights; flights < most_flights;) {
-      ++flights;
-      const State miss = flight.fly(answer);
+      if (flights++ > 0) miss = flight.fly(answer);
       if (miss_in_m(answer, scene) <= scene.transfer->refined_miss_m) {
         transfer.refined = std::move(answer);
         return "";
@@ -214,17 +213,19 @@ void solve(const Scene& scene, const ComputedProblem& problem,
            EnergyOptimalPolynomials& polynomials, EnergyOptimalTransfer& transfer) {
   const ThrustedFlight flight(scene, problem, transfer.time);
   transfer.condition = polynomials.condition();
+  State miss = State::Zero();
   for (int order = 1; order <= polynomials.order(); ++order) {
     transfer.answers.push_back(polynomials.answer(flight, order, metric_units(scene)));
     EnergyOptimalAnswer& answer = transfer.answers.back();
     try {
-      flight.fly(answer);
+      miss = flight.fly(answer);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
       answer.failure = error.what();
     }
   }
-  if (const std::string failure = refine(polynomials, flight, scene, transfer); !failure.empty()) {
+  if (const std::string failure = refine(polynomials, flight, scene, miss, transfer);
+      !failure.empty()) {
     const double share = ThrustContinuation(flight, scene, transfer).reach();
     if (share < 1) {
       throw Error(ErrorKind::numerical,

@@ -56,6 +56,10 @@ class ThrustFeedback {
     FeedbackLaw law;
     try {
       find_costates();
+      for (std::size_t k = 0; k < count_; ++k) {
+        chiefs_.push_back(flight_.chief_at(time_of(k)));
+        orbits_.push_back(flight_.orbit_at(time_of(k)));
+      }
       for (std::size_t k = 0; k < count_; ++k) law.instants.push_back(instant(k));
       fly(law);
     } catch (const Error& error) {
@@ -92,9 +96,8 @@ class ThrustFeedback {
   FeedbackInstant instant(std::size_t k) const {
     FeedbackInstant instant;
     instant.time = time_of(k);
-    const std::vector<double> chief = flight_.chief_at(instant.time);
-    const std::vector<double> from_orbit = state_difference(chief, flight_.orbit_at(instant.time));
-    const ChiefFrame frame(chief, units_, frame_);
+    const std::vector<double> from_orbit = state_difference(chiefs_[k], orbits_[k]);
+    const ChiefFrame frame(chiefs_[k], units_, frame_);
     const SpacePointer space = SeriesSpace::create(states, problem_.space->order());
     std::vector<Series<double>> inner;
     for (std::size_t i = 0; i < states; ++i) inner.emplace_back(space, from_orbit[i]);
@@ -128,12 +131,10 @@ class ThrustFeedback {
     const int panels = std::max(1, panels_ / static_cast<int>(count_));
     for (std::size_t k = 0; k < count_; ++k) {
       const double time = time_of(k);
-      const std::vector<double> chief = flight_.chief_at(time);
-      const std::vector<double> orbit = flight_.orbit_at(time);
       const std::vector<double> state(z.begin(), z.begin() + states);
       law.instants[k].state =
-          ChiefFrame(chief, units_, frame_).relative(state_difference(state, chief));
-      std::vector<double> ends = state_difference(state, orbit);
+          ChiefFrame(chiefs_[k], units_, frame_).relative(state_difference(state, chiefs_[k]));
+      std::vector<double> ends = state_difference(state, orbits_[k]);
       ends.insert(ends.end(), flight_.end().begin(), flight_.end().end());
       values.set_point(ends);
       for (std::size_t i = 0; i < states; ++i) {
@@ -141,10 +142,7 @@ class ThrustFeedback {
       }
       flight_.fly_on(z, time, k + 1 == count_ ? flight_.time() : time_of(k + 1), panels, integrals);
     }
-    ThrustedFlight::State miss;
-    for (std::size_t i = 0; i < states; ++i) {
-      miss[static_cast<Eigen::Index>(i)] = z[i] - flight_.orbit_end()[i] - flight_.end()[i];
-    }
+    const ThrustedFlight::State miss = flight_.missing_at(z);
     law.miss_m = miss.head<3>().norm() * units_.length_m;
     law.velocity_miss_m_s = miss.tail<3>().norm() * units_.velocity_m_s();
     law.energy_m2_s3 = integrals.energy_m2_s3;
@@ -158,6 +156,8 @@ class ThrustFeedback {
   MetricUnits units_;
   RelativeFrame frame_;
   std::size_t count_;
+  std::vector<std::vector<double>> chiefs_;  ///< at the instants
+  std::vector<std::vector<double>> orbits_;  ///< likewise
   std::vector<std::vector<Series<double>>> costates_;
 };
 

@@ -72,8 +72,12 @@ std::vector<double> ThrustedFlight::deputy(const std::vector<double>& costates,
 
 ThrustedFlight::State ThrustedFlight::missing(const std::vector<double>& costates,
                                               double share) const {
-  const std::vector<double> flown =
-      exact_flow(problem_.system, deputy(costates, share), problem_.start_time, time_);
+  return missing_at(
+      exact_flow(problem_.system, deputy(costates, share), problem_.start_time, time_), share);
+}
+
+ThrustedFlight::State ThrustedFlight::missing_at(const std::vector<double>& flown,
+                                                 double share) const {
   State miss;
   for (std::size_t i = 0; i < states; ++i) {
     miss[static_cast<Eigen::Index>(i)] = flown[i] - orbit_end_[i] - share * end_[i];

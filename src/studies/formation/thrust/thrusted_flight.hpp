@@ -39,6 +39,8 @@ class ThrustedFlight {
   std::vector<double> deputy(const std::vector<double>& costates, double share = 1) const;
   /// The flown less the wanted state of the end, both with this share of the scene's deviations.
   State missing(const std::vector<double>& costates, double share = 1) const;
+  /// A state at the end of a flight less the wanted one, with this share of the deviations.
+  State missing_at(const std::vector<double>& flown, double share = 1) const;
   /// How the state of the end moves with the costates there.
   Eigen::Matrix<double, 6, 6> commanded(const std::vector<double>& costates, double share) const;
   /// Writes the misses of a flown less a wanted state.
