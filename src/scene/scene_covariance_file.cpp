@@ -75,8 +75,7 @@ GivenCovariance of_conjunction(const ConjunctionDataMessage& message, std::size_
   const ConjunctionObject& object = message.objects[number];
   GivenCovariance given = {
       message.tca, "UTC", "RTN", square(object.covariance, 1), object.covariance_line, {}};
-  given.state.names =
-      known_names({object.object_name, object.international_designator, object.object_designator});
+  given.state.names = known_names_of(object);
   given.state.center_name = object.orbit_center;
   given.state.reference_frame = object.reference_frame;
   given.state.position_km = Eigen::Vector3d(object.position_km.data());
@@ -92,7 +91,7 @@ CovariancesOfFile covariances_of(const TableReader& table, const std::string& na
   const double mu_km3_s2 = system.mu_km3_s2;
   const AcceptedFrames frames = frames_of(system);
   CovariancesOfFile file;
-  if (text.find("CCSDS_CDM_VERS") != text.npos) {
+  if (is_cdm(text)) {
     ConjunctionDataMessage message = read_cdm(name, text);
     for (std::size_t k = 0; k < 2; ++k) file.found.push_back(of_conjunction(message, k));
     file.doubts = std::move(message.doubts);

@@ -73,6 +73,9 @@ struct ConjunctionDataMessage {
   std::vector<std::string> doubts = {};
 };
 
+/// Whether a text has the keyword with which a CDM begins.
+bool is_cdm(std::string_view text);
+
 /// Reads a CDM. Other contents of the standard (orbit determination, thrust, operators) are checked
 /// by their keywords and left out; an empty optional value counts as absent. Throws
 /// Error(input_output), with one line as read_oem, for a text that is not such a message.

@@ -215,6 +215,8 @@ std::optional<std::array<double, 3>> three_numbers(const MessageBlock& head,
 
 }  // namespace
 
+bool is_cdm(std::string_view text) { return text.find(cdm_version_keyword) != text.npos; }
+
 ConjunctionDataMessage read_cdm(const std::string& name, std::string_view text) {
   MessageLines lines(name, text, "cdm");
   read_version(lines, cdm_version_keyword, {"1.0"});

@@ -73,6 +73,11 @@ std::vector<std::string> known_names(std::vector<std::string> names) {
   return known;
 }
 
+std::vector<std::string> known_names_of(const ConjunctionObject& object) {
+  return known_names(
+      {object.object_name, object.international_designator, object.object_designator});
+}
+
 bool are_other_objects(const std::vector<std::string>& one, const std::vector<std::string>& other) {
   if (one.empty() || other.empty()) return false;
   return std::none_of(one.begin(), one.end(), [&](const std::string& name) {

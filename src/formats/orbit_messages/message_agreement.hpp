@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/formats/conjunction_data_message.hpp"
 #include "hamjet/formats/orbit_message.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -29,6 +30,7 @@ struct KnownState {
 
 /// The distinct names of an object that are neither empty nor placeholders.
 std::vector<std::string> known_names(std::vector<std::string> names);
+std::vector<std::string> known_names_of(const ConjunctionObject& object);
 
 /// Whether both lists have names and share none, regardless of case.
 bool are_other_objects(const std::vector<std::string>& one, const std::vector<std::string>& other);

@@ -68,8 +68,7 @@ double period_of(const ConjunctionObject& object, double mu_km3_s2) {
 
 bool is_conjunction_message(std::string_view text) {
   // A scene may name the keyword in a comment, but no message has a table.
-  return text.find("CCSDS_CDM_VERS") != std::string_view::npos &&
-         text.find("[nominal]") == std::string_view::npos;
+  return is_cdm(text) && text.find("[nominal]") == std::string_view::npos;
 }
 
 std::string scene_of_conjunction(std::string_view text, const std::string& file_name,

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
+#include "../../formats/orbit_messages/message_agreement.hpp"
 #include "../../studies/earth_system.hpp"
 #include "../../text/scene_message.hpp"
 #include "../scene_sections.hpp"
@@ -176,16 +178,15 @@ SpacecraftSettings coefficients_of_conjunction(const TableReader& table, std::st
   SpacecraftSettings settings;
   if (!table.has("file")) return settings;
   const std::string text = table.content_beside_scene("file", largest_orbit_message_bytes);
-  if (text.find("CCSDS_CDM_VERS") == text.npos) return settings;
+  if (!is_cdm(text)) return settings;
   const std::string object = table.has("object") ? table.text("object") : std::string(usual);
   const std::string name = printable(table.path_beside_scene("file").string(), std::string::npos);
   const ConjunctionDataMessage message = read_cdm(name, text);
   for (std::size_t k = 0; k < message.objects.size(); ++k) {
     const ConjunctionObject& one = message.objects[k];
-    if (object != fmt::format("OBJECT{}", k + 1) && object != one.object_name &&
-        object != one.international_designator && object != one.object_designator) {
-      continue;
-    }
+    const std::vector<std::string> names = known_names_of(one);
+    const bool is_named = std::find(names.begin(), names.end(), object) != names.end();
+    if (!is_named && object != fmt::format("OBJECT{}", k + 1)) continue;
     const ConjunctionSpacecraft& craft = one.spacecraft;
     const auto area_or_whole = [&](const std::optional<double>& own) {
       return own ? own : craft.visible_area_m2;
