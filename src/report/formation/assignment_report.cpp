@@ -2,8 +2,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_text.hpp"
@@ -91,6 +94,30 @@ std::string left_line(std::string_view what, const std::vector<std::size_t>& lef
   return left.empty() ? "" : fmt::format("{}: {}\n", what, fmt::join(left, ", "));
 }
 
+/// A number of the thrust that lasts, by which a deputy comes to its slot.
+struct ThrustNumber {
+  std::string_view name;
+  std::string_view unit;
+  std::string_view meaning;
+  double (*value)(const EnergyOptimalTransfer&);
+
+  std::optional<double> of(const AssignedTransfer& one) const {
+    return one.thrust && one.thrust->is_found() ? std::optional(value(*one.thrust)) : std::nullopt;
+  }
+};
+
+constexpr std::array<ThrustNumber, 4> thrust_numbers = {{
+    {"thrust_energy_m2_s3", "m^2/s^3",
+     "with a thrust that lasts, the integral of |u|^2 / 2 along its flight",
+     [](const EnergyOptimalTransfer& one) { return one.energy_m2_s3; }},
+    {"thrust_change_m_s", "m/s", "and that of |u|",
+     [](const EnergyOptimalTransfer& one) { return one.change_m_s; }},
+    {"largest_thrust_m_s2", "m/s^2", "the largest |u| of that flight",
+     [](const EnergyOptimalTransfer& one) { return one.largest_m_s2; }},
+    {"thrust_miss_m", "m", "the miss of that flight",
+     [](const EnergyOptimalTransfer& one) { return one.refined->miss_m; }},
+}};
+
 bool is_thrusted(const AssignmentResult& result) {
   return result.scene.transfer->thrust == TransferThrust::energy_optimal;
 }
@@ -173,13 +200,9 @@ Json transfers_json(const AssignmentResult& result) {
   Json json = Json::array();
   for (const AssignedTransfer& assigned : result.transfers) {
     Json transfer = transfer_point_json(assigned.transfer, result.scene);
-    const bool is_found = assigned.thrust && assigned.thrust->is_found();
-    const auto of_thrust = [&](double number) { return is_found ? json_number(number) : Json(); };
-    const EnergyOptimalTransfer thrust = assigned.thrust.value_or(EnergyOptimalTransfer());
-    transfer["thrust_energy_m2_s3"] = of_thrust(thrust.energy_m2_s3);
-    transfer["thrust_change_m_s"] = of_thrust(thrust.change_m_s);
-    transfer["largest_thrust_m_s2"] = of_thrust(thrust.largest_m_s2);
-    transfer["thrust_miss_m"] = of_thrust(is_found ? thrust.refined->miss_m : 0);
+    for (const ThrustNumber& one : thrust_numbers) {
+      transfer[std::string(one.name)] = json_number(one.of(assigned));
+    }
     json.push_back(
         {{"deputy", assigned.deputy}, {"slot", assigned.slot}, {"transfer", std::move(transfer)}});
   }
@@ -229,22 +252,10 @@ TableView assignment_table(const AssignmentResult& result) {
   table.add("slot", "", "the number of the slot, from 0", &AssignedTransfer::slot).is_in_json =
       false;
   table.add_columns(transfer_columns(scene), &AssignedTransfer::transfer);
-  const auto of_thrust = [](auto value) {
-    return [value](const AssignedTransfer& one) {
-      return one.thrust && one.thrust->is_found() ? std::optional(value(*one.thrust))
-                                                  : std::nullopt;
-    };
-  };
-  using Thrusted = const EnergyOptimalTransfer&;
-  table.add("thrust_energy_m2_s3", "m^2/s^3",
-            "with a thrust that lasts, the integral of |u|^2 / 2 along its flight",
-            of_thrust([](Thrusted one) { return one.energy_m2_s3; }));
-  table.add("thrust_change_m_s", "m/s", "and that of |u|",
-            of_thrust([](Thrusted one) { return one.change_m_s; }));
-  table.add("largest_thrust_m_s2", "m/s^2", "the largest |u| of that flight",
-            of_thrust([](Thrusted one) { return one.largest_m_s2; }));
-  table.add("thrust_miss_m", "m", "the miss of that flight",
-            of_thrust([](Thrusted one) { return one.refined->miss_m; }));
+  for (const ThrustNumber& one : thrust_numbers) {
+    table.add(std::string(one.name), std::string(one.unit), std::string(one.meaning),
+              [one](const AssignedTransfer& assigned) { return one.of(assigned); });
+  }
   std::set<std::string> in_csv = {"deputy",         "slot",
                                   "time_canonical", "time_s",
                                   "kind",           "condition",
