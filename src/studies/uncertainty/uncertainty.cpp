@@ -283,6 +283,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   SampledFlights flown_chief = SampledFlights::of_nominal(problem.system, scene);
 
   FlowJet<double> jet_at_end;
+  std::vector<Matrix<double>> linear_flows;  ///< at the time, along the frame
   std::vector<MeanOfStart> means(starts.size());
   std::optional<Covariance> noise_at_end;
   for (std::size_t t = 0; t < settings.times.size(); ++t) {
@@ -353,15 +354,15 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
       add_noise(relative, Cumulants(between, added ? added->plus(*added) : Covariance()));
       map_all(relative, to_frame);
     }
-    std::vector<Matrix<double>> linear_flows;
+    linear_flows.clear();
     for (const FlowJet<double>& own : own_jets_at) {
       linear_flows.push_back(to_frame * linear_part(own));
     }
-    result.parameter_effects = parameter_effects(starts, linear_flows);
     result.points.push_back(std::move(at));
     jet_at_end = jet;
     noise_at_end = added;
   }
+  result.parameter_effects = parameter_effects(starts, linear_flows);
   result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), true));
   result.in_coordinates = moments_in_coordinates(scene, problem, integrator, starts, jet_at_end,
                                                  means, noise_at_end, progress);
