@@ -45,13 +45,10 @@ TEST(Validity, ProvedSeparationMeetsTheToleranceAndGrowsWithTheOrder) {
       EXPECT_GT(entry.proved_m, smaller);
       smaller = entry.proved_m;
     }
-    // The part of degree k + 1 foretells the error of order k; the last is extrapolated.
-    for (std::size_t k = 0; k < 3; ++k) {
-      const ValidityEntry& entry = point.entries[k];
+    // The part of degree k + 1 foretells the error of order k.
+    for (const ValidityEntry& entry : point.entries) {
       EXPECT_NEAR(entry.predicted_m / entry.proved_m, 1, 0.3) << entry.order;
     }
-    EXPECT_GT(point.entries[3].predicted_m, 0.3 * point.entries[3].proved_m);
-    EXPECT_LT(point.entries[3].predicted_m, 3 * point.entries[3].proved_m);
   }
 }
 

@@ -86,12 +86,13 @@ inline constexpr std::array<JetCoordinates, 6> measured_coordinates = {
 /// in the velocity of that frame (by default as seen from the turning axes) fill the same ellipsoid
 /// times the mean motion. The samples are random ones and, for each order, those with the largest
 /// error. The latter are found first from the part of the next degree, by gradient ascent from the
-/// largest samples; then, at the reach of these samples, by ascent of the flown miss itself, until
-/// no deputy beyond the tolerance is found. The miss is the distance between the final position
-/// that the jet's polynomial gives and that of the flown deputy. The prediction takes the part of
-/// degree k + 1 as the error of order k; its largest value over the samples grows as the separation
-/// to the power k + 1. For the highest order this part is extrapolated from the ratio of the last
-/// two. Throws as study_transfer.
+/// largest samples. To orders up to 6 the jet has two degrees more than are asked for: the miss
+/// that they foretell is ascended next, and then, at the reach of these samples, the flown miss
+/// itself, until no deputy beyond the tolerance is found. The miss is the distance between the
+/// final position that the jet's polynomial gives and that of the flown deputy. The prediction
+/// takes the part of degree k + 1 as the error of order k; its largest value over the samples grows
+/// as the separation to the power k + 1. For an order without a next degree, from 8 on, this part
+/// is extrapolated from the ratio of the last two. Throws as study_transfer.
 ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress = {});
 
 /// The scene's coordinates. If these are automatic, the coordinates whose polynomials of the

@@ -11,6 +11,47 @@
 #include "hamjet/error.hpp"
 
 namespace hamjet {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The step of differences by which ascents find their directions, as a fraction of the separation.
+constexpr double gradient_step = 1e-3;
+
+/// Ascent of a miss within the unit balls of position and of velocity, by steps along its gradient
+/// that are brought back to the balls.
+FlownDeputies::Worst ascent(FlownDeputies::Worst worst,
+                            const std::function<Vector6(const Vector6&)>& gradient_at,
+                            const std::function<double(const Vector6&)>& miss_at) {
+  constexpr int most_iterations = 12;
+  constexpr double least_growth = 2e-3;  // least relative growth of the miss in an iteration
+  // Lengths of a step along the gradient, in semi-axes; the first one leads straight to the
+  // ellipsoids' points in this direction.
+  constexpr double lengths[] = {1e6, 1, 0.25, 0.06};
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    Vector6 uphill = gradient_at(worst.direction);
+    if (!uphill.allFinite()) break;
+    for (const Eigen::Index first : {0, 3}) {
+      const double length = uphill.segment<3>(first).norm();
+      if (length > 0) uphill.segment<3>(first) /= length;
+    }
+    const double before = worst.miss;
+    for (const double length : lengths) {
+      Vector6 next = worst.direction + length * uphill;
+      for (const Eigen::Index first : {0, 3}) {
+        next.segment<3>(first) /= std::max(1.0, next.segment<3>(first).norm());
+      }
+      const double found = miss_at(next);
+      if (!(found > before)) continue;
+      worst = {next, found};
+      break;
+    }
+    if (!(worst.miss > before * (1 + least_growth))) break;
+  }
+  return worst;
+}
+
+}  // namespace
 
 Matrix6 ellipsoid_axes(std::span<const double> chief, RelativeFrame frame,
                        std::span<const double> semi_axes, double velocity, const VelocityLaw& law) {
@@ -55,6 +96,11 @@ SixNumbers<double> FlownDeputies::deviation(const Vector6& coordinates) const {
   return {z[0], z[1], z[2], z[3], z[4], z[5]};
 }
 
+void FlownDeputies::sort_by_miss(std::vector<Worst>& deputies) {
+  std::stable_sort(deputies.begin(), deputies.end(),
+                   [](const Worst& a, const Worst& b) { return a.miss > b.miss; });
+}
+
 std::vector<double> FlownDeputies::state(const SixNumbers<double>& deviation) const {
   std::vector<double> deputy = problem_.nominal;
   for (std::size_t i = 0; i < deviation.size(); ++i) deputy[i] += deviation[i];
@@ -79,14 +125,14 @@ Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
     flown = exact_flow(problem_.system, state(start), problem_.start_time, time_);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
-    return Vector6::Constant(std::numeric_limits<double>::infinity());
+    return Vector6::Constant(infinity);
   }
   return error_of(flown, predictor_.predict(start, order).deviation);
 }
 
 double FlownDeputies::miss(const Vector6& coordinates, int order) {
   const double distance = error(coordinates, order).head<3>().norm();
-  return std::isfinite(distance) ? distance : std::numeric_limits<double>::infinity();
+  return std::isfinite(distance) ? distance : infinity;
 }
 
 Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double step) {
@@ -98,7 +144,7 @@ Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double st
                        step_tolerance);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
-    return Vector6::Constant(std::numeric_limits<double>::infinity());
+    return Vector6::Constant(infinity);
   }
   // The error is far smaller than what the polynomials and the flight change by, so that the
   // differences are of fourth order: (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / (12 h).
@@ -127,35 +173,64 @@ Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double st
   return result;
 }
 
-FlownDeputies::Worst FlownDeputies::worst_from(const Worst& start, int order, double separation) {
-  constexpr int most_iterations = 12;
-  constexpr double step = 1e-3;          // step of differences, as a fraction of the separation
-  constexpr double least_growth = 2e-3;  // least relative growth of the miss in an iteration
-  // Lengths of a step along the gradient, in semi-axes; the first one leads straight to the
-  // ellipsoids' points in this direction.
-  constexpr double lengths[] = {1e6, 1, 0.25, 0.06};
-  Worst worst = start;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    Vector6 uphill = gradient(separation * worst.direction, order, step * separation);
-    if (!uphill.allFinite()) break;
-    for (const Eigen::Index first : {0, 3}) {
-      const double length = uphill.segment<3>(first).norm();
-      if (length > 0) uphill.segment<3>(first) /= length;
-    }
-    const double before = worst.miss;
-    for (const double length : lengths) {
-      Vector6 next = worst.direction + length * uphill;
-      for (const Eigen::Index first : {0, 3}) {
-        next.segment<3>(first) /= std::max(1.0, next.segment<3>(first).norm());
-      }
-      const double found = miss(separation * next, order);
-      if (!(found > before)) continue;
-      worst = {next, found};
-      break;
-    }
-    if (!(worst.miss > before * (1 + least_growth))) break;
+std::vector<Eigen::Vector3d> FlownDeputies::foretold_errors(
+    std::span<const SixNumbers<double>> starts, int order) {
+  const int degrees[] = {order, predictor_.flow().order()};
+  std::vector<DeputyPrediction> predicted(2 * starts.size());
+  predictor_.predict(starts, degrees, predicted);
+  std::vector<Eigen::Vector3d> errors;
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const Eigen::Map<const Eigen::Vector3d> by_order(predicted[k].deviation.data());
+    const Eigen::Map<const Eigen::Vector3d> by_all(predicted[starts.size() + k].deviation.data());
+    errors.push_back(by_all - by_order);
   }
-  return worst;
+  return errors;
+}
+
+FlownDeputies::Worst FlownDeputies::worst_from(const Worst& start, int order, double separation) {
+  const double step = gradient_step * separation;
+  return ascent(
+      start, [&](const Vector6& at) { return gradient(separation * at, order, step); },
+      [&](const Vector6& at) { return miss(separation * at, order); });
+}
+
+void FlownDeputies::sort_by_foretold_miss(std::vector<Vector6>& directions, int order,
+                                          double separation) {
+  std::vector<SixNumbers<double>> starts;
+  for (const Vector6& direction : directions) starts.push_back(deviation(separation * direction));
+  const std::vector<Eigen::Vector3d> errors = foretold_errors(starts, order);
+  std::vector<Worst> foretold;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    // A deputy without a place in the coordinates comes first.
+    const double miss = errors[k].norm();
+    foretold.push_back({directions[k], miss < infinity ? miss : infinity});
+  }
+  sort_by_miss(foretold);
+  std::transform(foretold.begin(), foretold.end(), directions.begin(),
+                 [](const Worst& worst) { return worst.direction; });
+}
+
+Vector6 FlownDeputies::foretold_worst_from(const Vector6& start, int order, double separation) {
+  const auto foretold = [&](const Vector6& at) {
+    const SixNumbers<double> initial = deviation(separation * at);
+    return foretold_errors({&initial, 1}, order)[0].norm();
+  };
+  // Differences to both sides of the error itself, which is all that the two orders differ by.
+  const auto slope = [&](const Vector6& at) {
+    std::vector<SixNumbers<double>> starts;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (const double side : {gradient_step, -gradient_step}) {
+        starts.push_back(deviation(separation * (at + side * Vector6::Unit(i))));
+      }
+    }
+    const std::vector<Eigen::Vector3d> errors = foretold_errors(starts, order);
+    Vector6 result;
+    for (std::size_t i = 0; i < 6; ++i) {
+      result[static_cast<Eigen::Index>(i)] = errors[2 * i].norm() - errors[2 * i + 1].norm();
+    }
+    return result;
+  };
+  return ascent({start, foretold(start)}, slope, foretold).direction;
 }
 
 }  // namespace hamjet

@@ -60,15 +60,26 @@ class FlownDeputies {
     Vector6 direction;  ///< coordinates divided by the separation
     double miss = 0;
   };
+  /// Puts the largest misses first.
+  static void sort_by_miss(std::vector<Worst>& deputies);
   /// Ascent of the miss from a deputy, within the ellipsoids of position and velocity of a
   /// separation, by steps along the gradient that are brought back to the ellipsoids.
   Worst worst_from(const Worst& start, int order, double separation);
+  /// Whether the flow has degrees above an order, which foretell what it misses.
+  bool foretells(int order) const { return predictor_.flow().order() > order; }
+  /// Puts the directions first whose deputies at a separation are foretold to miss most.
+  void sort_by_foretold_miss(std::vector<Vector6>& directions, int order, double separation);
+  /// Ascent of the foretold miss from a direction.
+  Vector6 foretold_worst_from(const Vector6& start, int order, double separation);
 
   DeputyPredictor& predictor() { return predictor_; }
 
  private:
   /// The state of a deputy at the start.
   std::vector<double> state(const SixNumbers<double>& deviation) const;
+  /// What the flow's degrees above an order add to the final positions of deputies.
+  std::vector<Eigen::Vector3d> foretold_errors(std::span<const SixNumbers<double>> starts,
+                                               int order);
   /// The difference between the polynomials and a flown state.
   Vector6 error_of(std::span<const double> flown, const SixNumbers<double>& predicted) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "../../../dynamics/frozen_system.hpp"
 #include "../../../integrators/momentum_unit.hpp"
@@ -25,6 +26,15 @@ namespace {
 constexpr double largest_separation = 0.5;
 constexpr double smallest_separation = 1e-12;
 
+/// The scene with the degrees that foretell what each of its orders neglects, and where most. The
+/// orders that take longer to expand than to fly deputies do without.
+Scene with_further_degrees(Scene scene) {
+  constexpr int further = 2;
+  constexpr int highest = 8;
+  scene.order = std::max(scene.order, std::min(scene.order + further, highest));
+  return scene;
+}
+
 /// One study in progress.
 class ValidityStudy {
  public:
@@ -32,7 +42,8 @@ class ValidityStudy {
       : scene_(scene),
         settings_(*scene.validity),
         progress_(progress),
-        problem_(make_problem(scene)),
+        deeper_(with_further_degrees(scene)),
+        problem_(make_problem(deeper_)),
         metres_(metric_units(scene).length_m),
         distance_(size_of_nominal(scene)),
         largest_separation_(largest_separation * distance_),
@@ -45,7 +56,7 @@ class ValidityStudy {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
     result_.coordinates = coordinates;
-    DeputyFlowPropagation propagation(scene_, problem_, integrator, coordinates);
+    DeputyFlowPropagation propagation(deeper_, problem_, integrator, coordinates);
     for (std::size_t index = 0; index < settings_.times.size(); ++index) {
       time_ = settings_.times[index];
       std::unique_ptr<DeputyFlow> flow;
@@ -80,8 +91,10 @@ class ValidityStudy {
     ValidityPoint point;
     point.time = time_;
     SliceMaxima slices(flow, axes_);
-    std::vector<std::vector<Vector6>> worst_of_degrees(static_cast<std::size_t>(scene_.order) + 1);
-    for (int d = 1; d <= scene_.order; ++d) {
+    const int known =
+        std::min(scene_.order + 1, flow.order());  // the highest degree that is looked at
+    std::vector<std::vector<Vector6>> worst_of_degrees(static_cast<std::size_t>(known) + 1);
+    for (int d = 1; d <= known; ++d) {
       worst_of_degrees[static_cast<std::size_t>(d)] = slices.maxima_and(samples_, d);
     }
     const double rounding = rounding_of_flights(problem_, time_);
@@ -107,8 +120,7 @@ class ValidityStudy {
       const Stopwatch watch(result_.proof_seconds);
       // At first the worst deviations for an order's error are taken to be those of the next
       // degree, or of the last degree known.
-      flown_samples_ =
-          worst_of_degrees[static_cast<std::size_t>(std::min(order + 1, scene_.order))];
+      flown_samples_ = worst_of_degrees[static_cast<std::size_t>(std::min(order + 1, known))];
       prove(deputies, predicted, entry);
       constexpr double clear = 30;  // multiple of the rounding that differences of misses need
       if (!entry.is_at_limit && !entry.is_at_wall &&
@@ -121,7 +133,7 @@ class ValidityStudy {
     result_.points.push_back(std::move(point));
   }
 
-  /// The largest size of each degree's contribution to the position; degree N + 1 is extrapolated.
+  /// The largest size of each degree's contribution to the position; one more is extrapolated.
   std::vector<double> slice_sizes(SliceMaxima& slices,
                                   const std::vector<std::vector<Vector6>>& worst_of_degrees) const {
     std::vector<double> sizes(worst_of_degrees.size() + 1, 0);
@@ -138,41 +150,77 @@ class ValidityStudy {
     return sizes;
   }
 
-  /// The largest miss over the samples at a separation; infinite if a deputy cannot be flown. Fills
-  /// `misses_` with the misses of all that were flown.
-  double largest_miss(FlownDeputies& deputies, int order, double separation) {
+  /// Flies the first samples at a separation, until one misses by far too much. Fills `misses_`
+  /// with the misses of all that were flown, the largest first, infinite if a deputy cannot be
+  /// flown, and leaves these samples in the same order.
+  void fly(FlownDeputies& deputies, int order, double separation, std::size_t count) {
     misses_.clear();
-    double largest = 0;
-    for (const Vector6& sample : flown_samples_) {
+    count = std::min(count, flown_samples_.size());
+    for (const Vector6& sample : std::span(flown_samples_).first(count)) {
       misses_.push_back({sample, deputies.miss(separation * sample, order)});
-      largest = std::max(largest, misses_.back().miss);
-      if (largest > hopeless * tolerance_) break;
+      if (misses_.back().miss > hopeless * tolerance_) break;
     }
-    return largest;
+    FlownDeputies::sort_by_miss(misses_);
+    std::transform(misses_.begin(), misses_.end(), flown_samples_.begin(),
+                   [](const auto& flown) { return flown.direction; });
   }
 
-  /// The worst deputy at a separation that ascents find, starting from the worst samples, which are
-  /// chosen far apart. The deputies that are found are added to the samples.
-  FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation,
-                                std::vector<FlownDeputies::Worst> samples) {
+  /// Replaces samples by the deputies at which the miss that the flow's higher degrees foretell for
+  /// a separation is largest, and puts the samples first that are foretold to miss most.
+  void foretell(FlownDeputies& deputies, int order, double separation) {
+    deputies.sort_by_foretold_miss(flown_samples_, order, separation);
+    for (const Vector6& start : far_apart(flown_samples_)) {
+      const Vector6 found = deputies.foretold_worst_from(start, order, separation);
+      constexpr double same = 0.1;
+      std::erase_if(flown_samples_,
+                    [&](const Vector6& sample) { return (sample - found).norm() < same; });
+      flown_samples_.push_back(found);
+    }
+    deputies.sort_by_foretold_miss(flown_samples_, order, separation);
+  }
+
+  /// The first of some directions that are far from each other.
+  static std::vector<Vector6> far_apart(const std::vector<Vector6>& directions) {
     // After whole revolutions the polynomials' own parts say little of what they neglect, and few
     // starts leave a maximum out.
     constexpr std::size_t most_starts = 16;
     constexpr double apart = 0.3;
-    std::sort(samples.begin(), samples.end(),
-              [](const auto& a, const auto& b) { return a.miss > b.miss; });
-    FlownDeputies::Worst worst = samples.front();
     std::vector<Vector6> starts;
-    for (const FlownDeputies::Worst& sample : samples) {
+    for (const Vector6& direction : directions) {
       const bool is_near = std::any_of(starts.begin(), starts.end(), [&](const Vector6& start) {
-        return (start - sample.direction).norm() < apart;
+        return (start - direction).norm() < apart;
       });
-      if (is_near) continue;
-      const FlownDeputies::Worst found = deputies.worst_from(sample, order, separation);
-      if (found.miss > worst.miss) worst = found;
-      if (found.miss > sample.miss) flown_samples_.insert(flown_samples_.begin(), found.direction);
-      starts.push_back(sample.direction);
+      if (!is_near) starts.push_back(direction);
       if (starts.size() == most_starts) break;
+    }
+    return starts;
+  }
+
+  /// The worst deputy at a separation that is found by flying all samples and by ascents of the
+  /// flown miss from the worst of them. If the flow foretells the misses, ascents of the foretold
+  /// ones come first, and the flown ascent starts from the worst alone. Ends as soon as a deputy is
+  /// beyond the tolerance; the deputies that are found are added to the samples.
+  FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation) {
+    FlownDeputies::Worst worst;
+    const auto ascend = [&](const FlownDeputies::Worst& start) {
+      const FlownDeputies::Worst found = deputies.worst_from(start, order, separation);
+      if (found.miss > worst.miss) worst = found;
+      if (found.miss > start.miss) flown_samples_.insert(flown_samples_.begin(), found.direction);
+    };
+    const bool is_foretold = deputies.foretells(order);
+    if (is_foretold) {
+      foretell(deputies, order, separation);
+      fly(deputies, order, separation, worst_samples);
+      ascend(misses_.front());
+      if (worst.miss > tolerance_) return worst;
+    }
+    fly(deputies, order, separation, flown_samples_.size());
+    if (misses_.front().miss > worst.miss) worst = misses_.front();
+    if (is_foretold || worst.miss > tolerance_) return worst;
+    const std::vector<FlownDeputies::Worst> flown = misses_;
+    for (const Vector6& start : far_apart(flown_samples_)) {
+      ascend(*std::find_if(flown.begin(), flown.end(),
+                           [&](const auto& deputy) { return deputy.direction == start; }));
     }
     return worst;
   }
@@ -187,9 +235,11 @@ class ValidityStudy {
 
   /// Finds the largest separation that holds. The miss grows as the separation to the power order +
   /// 1. Starting from the prediction, the next separation that is tried is the one at which this
-  /// law meets the tolerance, until the largest that holds is known to a few percent. Then worse
-  /// deputies are sought there; if one is beyond the tolerance, the search is repeated with it. The
-  /// few deputies at a wall are not found by a search, so that the result keeps clear of a wall.
+  /// law meets the tolerance, until the largest that holds is known to a few percent. The trials
+  /// fly the samples that are foretold to miss most, or missed most. At the separation that is
+  /// found all are flown and worse deputies are sought; if one is beyond the tolerance, the search
+  /// is repeated with it. The few deputies at a wall are not found by a search, so that the result
+  /// keeps clear of a wall.
   void prove(FlownDeputies& deputies, double predicted, ValidityEntry& entry) {
     constexpr int most_trials = 40;
     constexpr double close = 1.03;
@@ -198,12 +248,14 @@ class ValidityStudy {
     double bad = 0;
     double bad_miss = 0;
     double trial = predicted;
-    std::vector<FlownDeputies::Worst> good_misses;
+    const bool is_foretold = deputies.foretells(entry.order);
+    if (is_foretold) foretell(deputies, entry.order, predicted);
     for (int k = 0; k < most_trials; ++k) {
-      const double found = largest_miss(deputies, entry.order, trial);
+      const bool needs_all = k == 0 && !is_foretold;
+      fly(deputies, entry.order, trial, needs_all ? flown_samples_.size() : worst_samples);
+      const double found = misses_.front().miss;
       if (found <= tolerance_) {
         good = trial;
-        good_misses = misses_;
       } else {
         bad = trial;
         bad_miss = found;
@@ -211,7 +263,7 @@ class ValidityStudy {
       double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
       const bool is_at_limit = good >= largest_separation_;
       if (good > 0 && (is_at_limit || (bad > 0 && bad < close * good))) {
-        worst_ = worst_at(deputies, entry.order, good, good_misses);
+        worst_ = worst_at(deputies, entry.order, good);
         if (worst_.miss <= tolerance_) {
           entry.is_at_limit = is_at_limit;
           entry.is_at_wall = !is_at_limit && is_wall(good, worst_.miss, bad, bad_miss);
@@ -238,12 +290,15 @@ class ValidityStudy {
     }
   }
 
+  /// The samples that trials fly once it is known which miss most.
+  static constexpr std::size_t worst_samples = 6;
   /// After a miss that exceeds the tolerance by this factor, no further samples are needed.
   static constexpr double hopeless = 1e3;
 
   const Scene& scene_;
   const ValiditySettings& settings_;
   const ProgressCallback& progress_;
+  Scene deeper_;  ///< with the degrees above the order that foretell what it neglects
   ComputedProblem problem_;
   double metres_;
   double distance_;                     ///< distance of the chief at the start, in canonical units
@@ -252,7 +307,7 @@ class ValidityStudy {
   Matrix6 axes_;                        ///< see make_samples
   std::vector<Vector6> samples_;        ///< deviations of separation 1
   std::vector<Vector6> flown_samples_;  ///< samples with which one order is proved
-  std::vector<FlownDeputies::Worst> misses_;  ///< see largest_miss
+  std::vector<FlownDeputies::Worst> misses_;  ///< see fly
   FlownDeputies::Worst worst_;                ///< at the separation that is being proved
   double time_ = 0;
   ValidityResult result_;
