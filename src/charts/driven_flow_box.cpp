@@ -35,11 +35,11 @@ const FlowJet<double>& jet_at_end(const std::vector<FlowJet<double>>& about_end)
   return about_end.front();
 }
 
-ChartName elements_of(const SixNumbers<double>& chief, double mu) {
+}  // namespace
+
+ChartName driven_flow_box_elements(const SixNumbers<double>& chief, double mu) {
   return section_chart(chief, mu) == ChartName::nodal ? ChartName::nodal : ChartName::poincare;
 }
-
-}  // namespace
 
 /// Of the steady motion until the section is crossed.
 template <class T>
@@ -103,7 +103,7 @@ DrivenFlowBox::DrivenFlowBox(const SixNumbers<double>& start,
       oblateness_(oblateness),
       start_state_(start),
       end_state_(constants(jet_at_end(about_end_))),
-      start_(elements_of(start, mu), start, mu),
+      start_(driven_flow_box_elements(start, mu), start, mu),
       end_(start_.name(), end_state_, mu),
       start_elements_(start_.coordinates(start)),
       end_elements_(end_.coordinates(end_state_)),

@@ -13,6 +13,10 @@
 
 namespace hamjet {
 
+/// The elements in which flow boxes of forces that depend on the time are told for a chief: nodal
+/// ones, or Poincaré's near the equatorial plane.
+ChartName driven_flow_box_elements(const SixNumbers<double>& chief, double mu);
+
 /// A flow box for forces that depend on the time: from all states at a start to the times and
 /// places at which they cross a section, the angle along the orbit at which the chief ends. About
 /// an oblate body the steady motion (see secular_rates) is taken out in closed form.

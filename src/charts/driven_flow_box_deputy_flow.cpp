@@ -1,8 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "../integrators/taylor_flow.hpp"
 #include "driven_flow_box.hpp"
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {
@@ -48,11 +52,33 @@ class DrivenDeputyFlow : public DeputyFlow {
         starts[k] = flow.end_time_ - times[k];
         if (!std::isfinite(time)) states[6 * k] = time;
       }
-      taylor.advance(std::span(states).first(6 * count), std::span(starts).first(count),
-                     std::span(times).first(count));
+      advance(std::span(states).first(6 * count), std::span(starts).first(count),
+              std::span(times).first(count));
       for (std::size_t k = 0; k < count; ++k) {
         for (std::size_t i = 0; i < 6; ++i) {
           deviations[k][i] = states[6 * k + i] - flow.chief_end()[i];
+        }
+      }
+    }
+
+    /// A deputy whose crossing lies where the forces are not known, or whose flight has no end, has
+    /// no place; the others have theirs.
+    void advance(std::span<double> states, std::span<const double> starts,
+                 std::span<const double> times) {
+      const std::vector<double> crossings(states.begin(), states.end());
+      try {
+        return taylor.advance(states, starts, times);
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::numerical) throw;
+      }
+      for (std::size_t k = 0; k < times.size(); ++k) {
+        const std::span<double> state = states.subspan(6 * k, 6);
+        std::copy_n(crossings.begin() + static_cast<std::ptrdiff_t>(6 * k), 6, state.begin());
+        try {
+          taylor.advance(state, starts.subspan(k, 1), times.subspan(k, 1));
+        } catch (const Error& error) {
+          if (error.kind() != ErrorKind::numerical) throw;
+          std::fill(state.begin(), state.end(), std::numeric_limits<double>::quiet_NaN());
         }
       }
     }

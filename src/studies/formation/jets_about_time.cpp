@@ -1,6 +1,7 @@
 #include "jets_about_time.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -11,8 +12,13 @@ namespace {
 /// Nodes to each side of the one in the middle.
 constexpr Eigen::Index side = 10;
 constexpr Eigen::Index nodes = 2 * side + 1;
-/// Half of the span of the nodes, in units of the distance over the speed.
+/// Half of the span of the nodes, in units of the distance over the speed, or of the time of a fall
+/// where that is shorter, as it is near the apogee of an eccentric orbit.
 constexpr double half_span = 0.35;
+
+double half_span_at(double distance, double speed) {
+  return half_span * std::min(distance / speed, std::sqrt(distance * distance * distance));
+}
 
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -39,7 +45,7 @@ std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
                                              const FlowJet<double>& jet, int order) {
   static const LongMatrix weights = weights_of_powers();
   const double distance = std::hypot(jet[0][0], jet[1][0], jet[2][0]);
-  const double span = half_span * distance / std::hypot(jet[3][0], jet[4][0], jet[5][0]);
+  const double span = half_span_at(distance, std::hypot(jet[3][0], jet[4][0], jet[5][0]));
   std::vector<FlowJet<double>> at_nodes(static_cast<std::size_t>(nodes));
   at_nodes[side] = jet;
   for (const int sign : {-1, 1}) {
@@ -62,6 +68,17 @@ std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
     }
   }
   return result;
+}
+
+double longest_time_about(std::span<const double> state) {
+  constexpr double changes = 1.1;  // of the apogee, by what perturbs the orbit
+  const Eigen::Map<const Eigen::Vector3d> position(state.data());
+  const Eigen::Map<const Eigen::Vector3d> velocity(state.data() + 3);
+  const double energy = velocity.squaredNorm() / 2 - 1 / position.norm();
+  if (!(energy < 0)) return 0;
+  const double shape = 1 + 2 * energy * position.cross(velocity).squaredNorm();
+  const double apogee = (1 + std::sqrt(std::max(shape, 0.0))) / (-2 * energy);
+  return half_span * std::pow(changes * apogee, 1.5);
 }
 
 }  // namespace hamjet

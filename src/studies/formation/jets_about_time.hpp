@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "../jets_along_time.hpp"
@@ -16,5 +17,9 @@ namespace hamjet {
 /// multiply, have fewer digits. Throws as the integrator.
 std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
                                              const FlowJet<double>& jet, int order);
+
+/// The longest time before and after its own that jets_about_time integrates to anywhere along the
+/// orbit of a state, with mu = 1; 0 for an orbit that escapes.
+double longest_time_about(std::span<const double> state);
 
 }  // namespace hamjet

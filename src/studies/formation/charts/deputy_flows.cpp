@@ -17,16 +17,17 @@
 namespace hamjet {
 namespace {
 
-/// Does work that needs coordinates at a time; if the orbit does not have them, the error names the
-/// coordinates.
+/// Does work that needs coordinates at a time; if the orbit does not have them, the error, of the
+/// kind `lack`, names the coordinates.
 template <class Work>
-auto in_coordinates(JetCoordinates coordinates, const std::string& when, const Work& work) {
+auto in_coordinates(JetCoordinates coordinates, const std::string& when, ErrorKind lack,
+                    const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical || coordinates == JetCoordinates::cartesian) throw;
-    throw Error(error.kind(), fmt::format("jet.coordinates: {} {}: {}", name_of(coordinates), when,
-                                          error.what()));
+    throw Error(
+        lack, fmt::format("jet.coordinates: {} {}: {}", name_of(coordinates), when, error.what()));
   }
 }
 
@@ -128,8 +129,10 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
         ErrorKind::usage,
         fmt::format("jet.end_coordinates: {}: flow boxes are of both ends", name_of(coordinates)));
   }
-  in_coordinates(coordinates.start, "at the start", [&] {
+  // What the scene's own start lacks was asked for by the scene.
+  in_coordinates(coordinates.start, "at the start", ErrorKind::scene, [&] {
     if (coordinates.start == JetCoordinates::flow_box && !problem.system->is_autonomous()) {
+      CanonicalChart<double>(driven_flow_box_elements(start_, canonical_mu), start_, canonical_mu);
       jets_.emplace(problem, settings);
     } else if (coordinates.start == JetCoordinates::flow_box) {
       field_ = orbit_field(scene);
@@ -146,20 +149,20 @@ DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedP
 std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   const std::string when = fmt::format("after {:.6g} s", time * time_s_);
   if (boxes_) {
-    return in_coordinates(coordinates_.end, when, [&] {
+    return in_coordinates(coordinates_.end, when, ErrorKind::numerical, [&] {
       last_box_ = boxes_->advance_to(time);
       return flow_box_deputy_flow(field_, *last_box_);
     });
   }
   if (coordinates_.start == JetCoordinates::flow_box) {
     const FlowJet<double> at_end = jets_->advance_to(time);
-    return in_coordinates(coordinates_.end, when, [&] {
+    return in_coordinates(coordinates_.end, when, ErrorKind::numerical, [&] {
       last_driven_ = driven_flow_box(scene_, problem_, *jets_, at_end);
       return driven_flow_box_deputy_flow(problem_.system, problem_.start_time + time, last_driven_);
     });
   }
   const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));
-  return in_coordinates(coordinates_.end, when,
+  return in_coordinates(coordinates_.end, when, ErrorKind::numerical,
                         [&] { return deputy_flow_of_jet(jet, start_, coordinates_, parameters_); });
 }
 
