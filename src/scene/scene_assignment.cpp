@@ -82,6 +82,13 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
   };
   refuse_beside_thrust("keep_out_m", scene.transfer->keep_out_m.has_value());
   refuse_beside_thrust("largest_impulse_m_s", scene.transfer->largest_impulse_m_s.has_value());
+  refuse_beside_thrust("budget_m_s", scene.transfer->budget_m_s.has_value());
+  if (scene.thruster && scene.transfer->thrust == TransferThrust::energy_optimal) {
+    assignment.fail("",
+                    "thruster: got the table [thruster] beside a thrust that lasts, which is "
+                    "not made of burns, must be left out, or beside transfer.thrust = "
+                    "\"impulses\"; transfer.largest_thrust_m_s2 limits such a thrust");
+  }
   settings.deputies = read_states<RelativeState>(
       assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         refuse_manoeuvres(table);

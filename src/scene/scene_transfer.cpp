@@ -350,6 +350,12 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     if (!has_ends) transfer.fail("longest_coast_s", "no start and end, must be there with it");
     settings.longest_coast = nominal.scale.time_of_s(transfer.number("longest_coast_s"));
   }
+    if (settings.thrust == TransferThrust::energy_optimal) {
+      transfer.fail("keep_out_m", fmt::format("not looked at on ways of a thrust that lasts, got "
+                                              "{}, must be left out, or beside thrust = "
+                                              "\"impulses\"",
+                                              transfer.found("keep_out_m")));
+    }
   if (transfer.has("waypoint")) {
     if (!has_ends) transfer.fail("waypoint", "no start and end, must be there with waypoints");
     settings.waypoints = read_waypoints(transfer, nominal, settings.times);
