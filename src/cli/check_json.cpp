@@ -94,10 +94,7 @@ Json facts(const RunOptions& options, const Scene& scene) {
         {"velocity_m_s", array(scene.deputy->start.velocity_m_s)}};
     io::add_drift(json["deputy"], deputy_drift(scene), scene.deputy->start);
   }
-  json["commands"] = {"run"};
-  for (const io::StudyDescription* study : io::studies_of(scene)) {
-    json["commands"].push_back(study->command);
-  }
+  json["commands"] = io::commands_of(scene);
   json["transfer"] = scene.transfer ? times_json(*scene.transfer, scene) : Json(nullptr);
   json["validity"] = scene.validity ? times_json(*scene.validity, scene) : Json(nullptr);
   json["bounded_sizes_m"] = scene.bounded ? Json(scene.bounded->sizes_m) : Json(nullptr);

@@ -16,6 +16,7 @@
 
 #include "../app/processors.hpp"
 #include "../report/study_description.hpp"
+#include "../studies/flights/manoeuvred_flight.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/time_axis.hpp"
 #include "hamjet/error.hpp"
@@ -41,8 +42,10 @@ struct TimedStudy {
 
 /// The commands that a scene has what they need for.
 std::vector<TimedStudy> timed_studies(const Scene& scene) {
-  std::vector<TimedStudy> studies = {
-      {"run", [&](const auto& progress) { propagate(scene, progress, 1); }}};
+  std::vector<TimedStudy> studies;
+  if (!has_manoeuvres(scene)) {
+    studies.push_back({"run", [&](const auto& progress) { propagate(scene, progress, 1); }});
+  }
   for (const io::StudyDescription* study : io::studies_of(scene)) {
     studies.push_back({study->command, [&scene, study](const auto& progress) {
                          io::StudyWork work{progress, {}, usable_processors()};

@@ -237,11 +237,10 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
                         counted(scene.assignment->deputies.size(), "deputy"),
                         counted(scene.assignment->slots.size(), "slot"));
   }
-  std::string commands = "run";
-  for (const io::StudyDescription* study : io::studies_of(scene)) {
-    commands += fmt::format(", {}", study->command);
-  }
-  text += fmt::format("  commands     {}\n", commands);
+  const std::vector<std::string_view> commands = io::commands_of(scene);
+  text += fmt::format("  commands     {}\n",
+                      commands.empty() ? "none: no table [deputy] for the manoeuvres to be flown in"
+                                       : fmt::format("{}", fmt::join(commands, ", ")));
   text += fmt::format("  inversions   {}\n  reference    {}\n",
                       scene.kinds ? counted(scene.kinds->size(), "kind") : "none",
                       scene.reference ? "in extended precision" : "none");

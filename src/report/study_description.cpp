@@ -11,6 +11,7 @@
 #include "../studies/bounded/bounded_formation.hpp"
 #include "../studies/bounded/event_study.hpp"
 #include "../studies/bounded/frozen_orbit_study.hpp"
+#include "../studies/flights/manoeuvred_flight.hpp"
 #include "../studies/formation/deputy_motion.hpp"
 #include "../studies/periodic/periodic_study.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
@@ -96,7 +97,9 @@ constexpr StudyDescription descriptions[] = {
      .has_table = &has<&Scene::deputy>,
      .study = &done<&study_deputy_motion, &deputy_motion_report, &deputy_motion_tables>,
      .declared = &declared_motion,
-     .notes_escape = true},
+     .notes_escape = true,
+     .flies_manoeuvres = true,
+     .needs_orbit = true},
     {.command = "transfer",
      .purpose = "velocity changes from one relative position to another, for every time",
      .files = "report.html, figure.svg, transfers.csv, further CSV files and summary.json",
@@ -207,7 +210,8 @@ std::vector<const StudyDescription*> studies_of(const Scene& scene) {
   std::vector<const StudyDescription*> studies;
   for (const StudyDescription& study : descriptions) {
     const bool has_table = !study.table.empty() && study.has_table(scene);
-    if (has_table && (study.lack == nullptr || study.lack(scene).empty()))
+    const bool is_served = study.flies_manoeuvres || !has_manoeuvres(scene);
+    if (has_table && is_served && (study.lack == nullptr || study.lack(scene).empty()))
       studies.push_back(&study);
   }
   return studies;
@@ -219,6 +223,13 @@ void require_table(const StudyDescription& study, const Scene& scene, const std:
     throw Error(
         ErrorKind::scene,
         fmt::format("{0}: {1}: missing, must be a table [{1}]; the smallest is {1} = {{{2}}}", name,
+std::vector<std::string_view> commands_of(const Scene& scene) {
+  std::vector<std::string_view> commands;
+  if (!has_manoeuvres(scene)) commands.emplace_back("run");
+  for (const StudyDescription* study : studies_of(scene)) commands.push_back(study->command);
+  return commands;
+}
+
                     study.table, study.smallest));
   }
   const std::string lack = study.lack != nullptr ? study.lack(scene) : "";

@@ -47,6 +47,10 @@ struct StudyDescription {
   /// Whether deputies may leave flow boxes for orbits that are not bound. If so, users are told of
   /// it.
   bool notes_escape = false;
+  /// Whether the manoeuvres of orbit messages are flown; other studies refuse them.
+  bool flies_manoeuvres = false;
+  /// Whether it is about orbits alone, and has nothing for a system that a scene writes.
+  bool needs_orbit = false;
   /// What the table lacks for this study though it is there, as `key: problem`; null: nothing.
   std::string (*lack)(const Scene& scene) = nullptr;
 
@@ -70,9 +74,11 @@ const StudyDescription& study_of_table(std::string_view table);
 
 /// The studies whose tables a scene has, with all that they need in them.
 std::vector<const StudyDescription*> studies_of(const Scene& scene);
+/// The names of all commands that work on a scene, `run` first.
+std::vector<std::string_view> commands_of(const Scene& scene);
 
-/// Throws Error(scene) with `file` if the scene has not the table that the study works on; the
-/// message shows the smallest such table.
+/// Throws Error(scene) with `file` if the study is of other systems than the scene's, or if the
+/// scene has not the table that it works on; the message shows the smallest such table.
 void require_table(const StudyDescription& study, const Scene& scene, const std::string& file);
 /// require_table, and the same where the scene asks for arcs, which no study splits flows into.
 void require_scene_of(const StudyDescription& study, const Scene& scene, const std::string& file);

@@ -28,9 +28,13 @@ Eigen::Matrix3d thrust_axes(const std::vector<double>& state, ThrustAxes axes) {
 
 }  // namespace
 
+bool has_manoeuvres(const Scene& scene) {
+  return !scene.manoeuvres.empty() || (scene.deputy && !scene.deputy->manoeuvres.empty());
+}
+
 void require_coasting(const Scene& scene) {
+  if (!has_manoeuvres(scene)) return;
   const bool is_chiefs = !scene.manoeuvres.empty();
-  if (!is_chiefs && (!scene.deputy || scene.deputy->manoeuvres.empty())) return;
   const std::size_t count = is_chiefs ? scene.manoeuvres.size() : scene.deputy->manoeuvres.size();
   throw Error(ErrorKind::scene,
               fmt::format("{}.opm_file: a message with manoeuvres, got {}, which `hamjet motion` "

@@ -7,6 +7,8 @@
 
 namespace hamjet {
 
+/// Whether chief or deputy have manoeuvres.
+bool has_manoeuvres(const Scene& scene);
 /// Throws Error(scene) if chief or deputy have manoeuvres, which not every study flies.
 void require_coasting(const Scene& scene);
 

@@ -116,7 +116,9 @@ TEST_F(ManoeuvreMessages, OtherCommandsRefuseThem) {
                       "[deputy]\nopm_file = \"out/a-transfer/deputy.opm\"\n");
   expect_error({"transfer", "b.toml"}, 3,
                {"deputy.opm_file: a message with manoeuvres, got 2, which `hamjet motion` alone"});
-  succeed({"check", "b.toml"});
+  // What refuses them is not listed as a command for the scene.
+  EXPECT_NE(succeed({"check", "b.toml"}).out.find("commands     motion\n"), std::string::npos);
+  EXPECT_EQ(Json::parse(succeed({"check", "b.toml", "--json"}).out)["commands"], Json({"motion"}));
   write("c.toml", changed(transfer_scene, "{ position_m = [0, -3000, 500] }",
                           "{ opm_file = \"out/a-transfer/deputy.opm\" }"));
   expect_error({"check", "c.toml"}, 3, {"transfer.start.opm_file: a message with 2 manoeuvres"});
