@@ -13,6 +13,7 @@
 #include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/flights/manoeuvred_flight.hpp"
 #include "../studies/formation/deputy_motion.hpp"
+#include "../studies/formation/formation_problem.hpp"
 #include "../studies/periodic/periodic_study.hpp"
 #include "../studies/uncertainty/uncertainty.hpp"
 #include "../text/scene_message.hpp"
@@ -129,7 +130,8 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]",
      .has_table = &has<&Scene::uncertainty>,
      .study = &uncertainty_done,
-     .declared = &declared_uncertainty},
+     .declared = &declared_uncertainty,
+     .needs_orbit = true},
     {.command = "assign",
      .purpose = "send deputies to slots at the least total velocity change",
      .files = "assignment.csv, costs.csv, pairs.csv and summary.json",
@@ -139,7 +141,8 @@ constexpr StudyDescription descriptions[] = {
      .has_table = &has<&Scene::assignment>,
      .study = &done<&study_assignment, &assignment_report, &assignment_tables>,
      .declared = &declared_assignment,
-     .notes_escape = true},
+     .notes_escape = true,
+     .needs_orbit = true},
     {.command = "poincare",
      .purpose = "the frozen orbit of the chief's energy, and what turns about it; or a scene's "
                 "[event] as polynomials",
@@ -149,11 +152,13 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "surface = \"equator\"",
      .has_table = &has<&Scene::event>,
      .study = &done<&study_event, &event_report, &event_tables>,
-     .declared = &declared_event},
+     .declared = &declared_event,
+     .needs_orbit = true},
     {.command = "poincare",
      .has_table = [](const Scene&) { return true; },
      .study = &done<&study_frozen_orbit, &frozen_orbit_report, &poincare_tables>,
-     .declared = &declared_frozen_orbit},
+     .declared = &declared_frozen_orbit,
+     .needs_orbit = true},
     {.command = "bounded",
      .purpose = "deputies that stay with the chief for long without fuel",
      .files = "report.html, bounded.csv, box.csv of a box, summary.json",
@@ -162,7 +167,8 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "sizes_km = [1, 10]",
      .has_table = &has<&Scene::bounded>,
      .study = &done<&study_bounded, &bounded_report, &bounded_tables>,
-     .declared = &declared_bounded},
+     .declared = &declared_bounded,
+     .needs_orbit = true},
     {.command = "periodic",
      .purpose = "periodic orbits near the nominal, their multipliers, and their families",
      .files = "report.html, periodic.csv and summary.json",
@@ -217,12 +223,6 @@ std::vector<const StudyDescription*> studies_of(const Scene& scene) {
   return studies;
 }
 
-void require_table(const StudyDescription& study, const Scene& scene, const std::string& file) {
-  const std::string name = printable(file, std::string::npos);
-  if (!study.has_table(scene)) {
-    throw Error(
-        ErrorKind::scene,
-        fmt::format("{0}: {1}: missing, must be a table [{1}]; the smallest is {1} = {{{2}}}", name,
 std::vector<std::string_view> commands_of(const Scene& scene) {
   std::vector<std::string_view> commands;
   if (!has_manoeuvres(scene)) commands.emplace_back("run");
@@ -230,6 +230,21 @@ std::vector<std::string_view> commands_of(const Scene& scene) {
   return commands;
 }
 
+void require_table(const StudyDescription& study, const Scene& scene, const std::string& file) {
+  const std::string name = printable(file, std::string::npos);
+  if (study.needs_orbit && !is_orbit(scene.system.model)) {
+    throw Error(ErrorKind::scene,
+                fmt::format("{}: system.model: `hamjet {}` is about orbits, got \"{}\", must be "
+                            "\"earth\", \"zonal-gravity\" or \"kepler\"; {}",
+                            name, study.command, model_name(scene.system.model),
+                            scene.system.model == SystemModel::own
+                                ? studies_of_own_systems
+                                : "other models have `hamjet run` and `hamjet periodic`"));
+  }
+  if (!study.has_table(scene)) {
+    throw Error(
+        ErrorKind::scene,
+        fmt::format("{0}: {1}: missing, must be a table [{1}]; the smallest is {1} = {{{2}}}", name,
                     study.table, study.smallest));
   }
   const std::string lack = study.lack != nullptr ? study.lack(scene) : "";

@@ -105,8 +105,10 @@ void require_all_variables(const TableReader& table, const Scene& scene) {
 void require_relative_motion(const TableReader& table, const Scene& scene) {
   if (!is_orbit(scene.system.model)) {
     table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
-                               "zonal-gravity or kepler",
-                               model_name(scene.system.model)));
+                               "zonal-gravity, kepler or earth{}{}",
+                               model_name(scene.system.model), is_own ? "; " : "",
+                               is_own ? studies_of_own_systems : ""));
+    const bool is_own = scene.system.model == SystemModel::own;
   }
   require_all_variables(table, scene);
 }

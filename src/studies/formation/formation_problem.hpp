@@ -9,6 +9,12 @@
 
 namespace hamjet {
 
+/// What serves a system that a scene writes in place of the studies of orbits.
+inline constexpr std::string_view studies_of_own_systems =
+    "for equations of one's own `hamjet transfer` and `hamjet validity` have the deputies of a "
+    "Hamiltonian, along its coordinates, `hamjet periodic` its periodic orbits, and `hamjet run` "
+    "the polynomials of any system";
+
 /// Throws Error(scene) unless a study of formation flight can be made on the scene: it needs the
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.
 void require_formation_problem(const Scene& scene, bool has_table, std::string_view table);

@@ -118,5 +118,19 @@ TEST_F(BadOwn, StudiesAreOneLine) {
                  {"periodic: the Hamiltonian depends on the time, got t", "without t"});
 }
 
+// What a study of orbits lacks is not asked for, since it would be refused.
+TEST_F(BadOwn, StudiesOfOrbitsNameWhatServesInstead) {
+  write("own.toml", own_scene);
+  for (const char* const command : {"motion", "assign", "uncertainty", "bounded"}) {
+    SCOPED_TRACE(command);
+    expect_error({command, "own.toml"}, 3,
+                 {string("own.toml: system.model: `hamjet ") + command + "` is about orbits, got",
+                  "\"own\"", "`hamjet transfer` and `hamjet validity`"});
+  }
+  write("deputy.toml", own_scene + "[deputy]\nposition_m = [1, 0]\n");
+  expect_error({"motion", "deputy.toml"}, 3,
+               {"deputy: not available for this model", "`hamjet transfer` and `hamjet validity`"});
+}
+
 }  // namespace
 }  // namespace hamjet::test
