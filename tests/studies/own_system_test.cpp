@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include "hamjet/detail/studies/self_checks.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"
+#include "hamjet/maps/symplecticity.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/comparison.hpp"
 #include "support/errors.hpp"
@@ -77,6 +79,38 @@ jet = { order = 3, duration_canonical = 1 }
     for (std::size_t k = component.space().first(2); k < component.size(); ++k) {
       EXPECT_EQ(component[k], 0) << k;
     }
+  }
+}
+
+// Forces that are linear but for what cancels: degrees of which rounding alone is left are no
+// defect of the map, and a defect of the same size as theirs in one that is not linear is.
+TEST(OwnSystem, RoundingOfWhatCancelsIsNoDefect) {
+  const auto scene_of = [](const std::string& hamiltonian) {
+    return io::parse_scene(
+        "[system]\nmodel = \"own\"\ncoordinates = [\"x\"]\nmomenta = [\"p\"]\n"
+        "hamiltonian = \"" +
+            hamiltonian +
+            "\"\n[nominal]\ncoordinates = [0.3]\nmomenta = [0.2]\n[jet]\n"
+            "order = 4\nduration_canonical = 5\n",
+        "cancels.toml");
+  };
+  for (const char* const hamiltonian :
+       {"p^2/2 + (sqrt((x + 1)^2) - 1)^2/2", "p^2/2 + sqrt((x + 1)^4)/2 + sin(x)^2 + cos(x)^2",
+        "p^2/2 + (sqrt((1000*x + 1000)^2) - 1000)^2/2e6", "p^2/2 + log(exp(x))^2/2"}) {
+    const PropagationResult result = propagate(scene_of(hamiltonian));
+    EXPECT_TRUE(result.runs.at(0).failure.empty()) << hamiltonian;
+    EXPECT_TRUE(result.runs.at(0).failed_checks.empty()) << hamiltonian;
+  }
+  const Scene bent = scene_of("p^2/2 + (sqrt((x + 1)^2) - 1)^2/2 + 1e-3*x^3");
+  PropagationResult result = propagate(bent);
+  RunResult& run = result.runs.at(0);
+  EXPECT_TRUE(run.failed_checks.empty());
+  const std::size_t second = run.jet[0].space().first(2);
+  run.jet[0][second] += 1e-9;
+  run.symplecticity = symplecticity_by_degree(run.jet);
+  for (const SelfCheck& check : self_checks(bent, run)) {
+    if (check.name != SelfCheckName::symplecticity) continue;
+    EXPECT_EQ(check.state, SelfCheckState::failed) << check.text;
   }
 }
 

@@ -40,7 +40,20 @@ std::string largest_of(const std::vector<SymplecticityDefect>& defects) {
   return defects.empty() ? "" : size_text(worst);
 }
 
-std::string largest_defect(const RunResult& run) { return largest_of(run.symplecticity); }
+/// The largest defect; where its check has passed though one is beyond every limit, as those of
+/// degrees that are rounding alone are, the largest that it judged.
+std::string largest_defect(const RunResult& run) {
+  constexpr double beyond_every_limit = 1e-6;
+  const auto check = std::find_if(run.checks.begin(), run.checks.end(), [](const SelfCheck& one) {
+    return one.name == SelfCheckName::symplecticity && one.state == SelfCheckState::passed;
+  });
+  if (check == run.checks.end() || !check->value) return largest_of(run.symplecticity);
+  const double most = std::max(beyond_every_limit, check->limit.value_or(0));
+  const bool has_unjudged =
+      std::any_of(run.symplecticity.begin(), run.symplecticity.end(),
+                  [&](const SymplecticityDefect& defect) { return defect.scaled > most; });
+  return has_unjudged ? size_text(*check->value) : largest_of(run.symplecticity);
+}
 
 /// What came of the polynomials in the scene's coordinates, if it has others than Cartesian.
 std::string charted_line(const Scene& scene, const RunResult& run) {
