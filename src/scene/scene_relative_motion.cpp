@@ -7,11 +7,14 @@
 #include <string>
 
 #include "../formats/relative_frame_text.hpp"
+#include "../studies/earth_system.hpp"
 #include "../studies/formation/charts/coordinate_deviations.hpp"
+#include "../studies/formation/formation_problem.hpp"
 #include "../text/letter_case.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
+#include "scene_uncertain_parameters.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -104,11 +107,11 @@ void require_all_variables(const TableReader& table, const Scene& scene) {
 
 void require_relative_motion(const TableReader& table, const Scene& scene) {
   if (!is_orbit(scene.system.model)) {
+    const bool is_own = scene.system.model == SystemModel::own;
     table.fail("", fmt::format("not available for this model, got {}, must be an orbit: "
                                "zonal-gravity, kepler or earth{}{}",
                                model_name(scene.system.model), is_own ? "; " : "",
                                is_own ? studies_of_own_systems : ""));
-    const bool is_own = scene.system.model == SystemModel::own;
   }
   require_all_variables(table, scene);
 }
@@ -338,6 +341,17 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
         warning_head, table.head(""), length_text(separation_m), length_text(distance_m / 20)));
   };
   if (scene.deputy && !has_collision(root)) look(root.table("deputy"), scene.deputy->start);
+  for (const std::string& name : differing_parameters(scene)) {
+    const bool is_drag = name == drag_parameter;
+    const double chief = coefficient_of_owner(scene, false, is_drag).value_or(0);
+    const double difference = parameter_difference(scene, name);
+    if (chief == 0 || std::abs(difference) <= chief) continue;
+    warnings.push_back(fmt::format(
+        "{}{}: far from that of its chief, got {} = {:.6g} beside {:.6g}, should be up to {:.6g}, "
+        "twice as much: polynomials in it are right near the chief's value alone",
+        warning_head, root.table("deputy").head("spacecraft"), name, chief + difference, chief,
+        2 * chief));
+  }
   if (scene.deputy && has_collision(root) && scene.system.earth && scene.system.earth->radiation &&
       scene.system.earth->radiation->shadow != ShadowModel::none) {
     const double separation_m = scene.deputy->start.position_m.stableNorm();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../studies/earth_system.hpp"
 #include "../text/scene_message.hpp"
@@ -41,17 +42,38 @@ const EarthParameter& parameter_of(const TableReader& parameters, const std::str
                                     parameters.found(name), names_of_parameters()));
 }
 
+/// The value of a parameter of the forces on the chief, or on the deputy.
+double value_of(const EarthParameter& parameter, const Scene& scene, bool is_deputy) {
+  const bool is_drag = parameter.name == drag_parameter;
+  if (!is_deputy || (!is_drag && parameter.name != radiation_parameter)) {
+    return parameter.value(scene.system);
+  }
+  return coefficient_of_owner(scene, true, is_drag).value_or(0);
+}
+
+/// Warns of a standard deviation within which a parameter would change its sign.
+void warn_if_beyond(const TableReader& parameters, const std::string& name, double deviation,
+                    double value) {
+  if (value == 0 || deviation <= std::abs(value)) return;
+  parameters.warn(name,
+                  fmt::format("more than the parameter itself, got a standard deviation of {:.6g} "
+                              "beside a value of {:.6g}, should be at most {:.6g}: within it the "
+                              "force changes its sign",
+                              deviation, value, std::abs(value)));
+}
+
 /// The standard deviation of each parameter of the table that is not 0.
 std::vector<UncertainParameter> read_parameters_of_forces(const TableReader& parameters,
-                                                          const Scene& scene) {
+                                                          const Scene& scene, bool is_deputy) {
   std::vector<UncertainParameter> result;
   for (const std::string& name : parameters.keys()) {
-    parameter_of(parameters, name, scene);
+    const EarthParameter& parameter = parameter_of(parameters, name, scene);
     const double deviation = parameters.number(name);
     if (deviation < 0) {
       parameters.fail(name,
                       fmt::format("no standard deviation, got {}, must be at least 0", deviation));
     }
+    warn_if_beyond(parameters, name, deviation, value_of(parameter, scene, is_deputy));
     if (deviation > 0) result.push_back({name, deviation, {}});
   }
   return result;
@@ -114,7 +136,8 @@ void read_uncertain_parameters(const TableReader& table, const Scene& scene,
   std::vector<UncertainParameter> shared;
   if (table.has(parameters_key)) {
     const TableReader parameters = table.table(parameters_key);
-    for (UncertainParameter& one : read_parameters_of_forces(parameters, scene)) {
+    for (UncertainParameter& one :
+         read_parameters_of_forces(parameters, scene, common == nullptr)) {
       const auto is_it = [&](const UncertainParameter& other) { return other.name == one.name; };
       if (!is_of_all_spacecraft(one.name)) {
         // A file may have told it already.

@@ -10,6 +10,7 @@
 #include "../../app/deputy_evaluation.hpp"
 #include "../../app/eval_coordinates.hpp"
 #include "../../app/jet_evaluation.hpp"
+#include "../../app/parameter_range.hpp"
 #include "../../app/refusal.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../report/study_checks.hpp"
@@ -209,13 +210,15 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
 /// Carries all deviations through one jet.
 template <class Evaluation>
 void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& deviations,
-           Evaluation& evaluation, EvalOutput& output) {
+           Evaluation& evaluation, ParameterRange* range, EvalOutput& output) {
   while (true) {
     stop_if_interrupted();
     const io::NumberTable part = deviations.read(Evaluation::most_points);
     if (part.rows() == 0) return;
     for (std::size_t row = 0; row < part.rows(); ++row) {
-      evaluation.add(deviations.variables(coordinates, part, row));
+      const std::vector<double> variables = deviations.variables(coordinates, part, row);
+      if (range != nullptr) range->look(variables);
+      evaluation.add(variables);
     }
     evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
       const auto state = coordinates.final_state(deviation, evaluation.chief_error(), estimate);
@@ -225,20 +228,20 @@ void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& dev
 }
 
 void evaluate(const EvalOptions& options, const EvalSource& jet, DeviationRows& deviations,
-              EvaluationWork& work, EvalOutput& output) {
+              EvaluationWork& work, ParameterRange* range, EvalOutput& output) {
   const EvalCoordinates coordinates(jet.stored, options.frames, jet.told());
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
     DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
-    carry(coordinates, time_s, deviations, evaluation, output);
+    carry(coordinates, time_s, deviations, evaluation, nullptr, output);
     work.add(evaluation.seconds(), evaluation.multiply_adds(),
              MapEvaluator(jet.scene->flow->polynomials(), degree));
     work.chart_seconds += evaluation.chart_seconds();
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
-  carry(coordinates, time_s, deviations, evaluation, output);
+  carry(coordinates, time_s, deviations, evaluation, range, output);
   const MapEvaluator& evaluator = evaluation.evaluator();
   const std::size_t multiply_adds = evaluation.points() * evaluator.multiply_adds_per_point();
   work.add(evaluation.seconds(), static_cast<double>(multiply_adds), evaluator);
@@ -270,6 +273,7 @@ int eval(const EvalOptions& given) {
   // Until all rows are there, none is seen.
   io::SpooledText printed;
   EvaluationWork work;
+  ParameterRange range(stored);
   EvalOutput output(coordinates.final_columns(), options.time.has_value(),
                     [&](std::string_view csv) {
                       if (file) {
@@ -280,7 +284,9 @@ int eval(const EvalOptions& given) {
                     });
   for (const EvalSource& jet : jets) {
     if (&jet != &jets.front()) deviations.rewind();
-    evaluate(options, jet, deviations, work, output);
+    // The rows are the same at all times.
+    const bool is_first = &jet == &jets.front();
+    evaluate(options, jet, deviations, work, is_first ? &range : nullptr, output);
   }
   output.finish();
 
@@ -293,6 +299,7 @@ int eval(const EvalOptions& given) {
     printed.hand_out(print);
   }
   if (!options.quiet) report(coordinates, jets, work, output);
+  if (const auto warning = range.warning()) print_error(*warning);
   int code = 0;
   for (const SelfCheck& check : checks_of(jets)) {
     if (check.state != SelfCheckState::failed) continue;

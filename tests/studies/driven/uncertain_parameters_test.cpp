@@ -207,5 +207,55 @@ TEST(UncertainParameters, WhatMakesNoSenseIsRefused) {
               "must be left out");
 }
 
+// A standard deviation beyond the value itself: of the chief, of all, and of a deputy with a
+// coefficient of its own.
+TEST(UncertainParameters, DeviationsBeyondTheValueAreWarnedOf) {
+  const auto warnings = [](const std::string& uncertainty, const std::string& deputy = "") {
+    std::string all;
+    for (const std::string& one : scene_in_even_air(uncertainty, 2, 1, deputy).warnings) {
+      all += one + "\n";
+    }
+    return all;
+  };
+  const std::string state = "position_m = [1, 1, 1]\n";
+  EXPECT_EQ(warnings("parameters = {density_factor = 0.9, drag_m2_kg = 0.02}\n").find("more than"),
+            std::string::npos);
+  const std::string both = warnings("parameters = {density_factor = 4, drag_m2_kg = 0.04}\n");
+  EXPECT_NE(
+      both.find("uncertainty.parameters.density_factor: more than the parameter itself, got a "
+                "standard deviation of 4 beside a value of 1, should be at most 1"),
+      std::string::npos)
+      << both;
+  EXPECT_NE(
+      both.find("drag_m2_kg: more than the parameter itself, got a standard deviation of 0.04 "
+                "beside a value of 0.02"),
+      std::string::npos)
+      << both;
+  const std::string deputy =
+      "[deputy]\nposition_m = [0, -300, 0]\nspacecraft = {drag_m2_kg = 0.03}\n";
+  const std::string of_deputy = "[uncertainty.deputy]\nposition_m = [1, 1, 1]\nparameters = ";
+  EXPECT_EQ(warnings(state + of_deputy + "{drag_m2_kg = 0.025}\n", deputy).find("more than"),
+            std::string::npos);
+  EXPECT_NE(warnings(state + of_deputy + "{drag_m2_kg = 0.035}\n", deputy)
+                .find("beside a value of 0.03, should be at most 0.03"),
+            std::string::npos);
+}
+
+TEST(UncertainParameters, DeputiesFarFromTheirChiefsCoefficientAreWarnedOf) {
+  const auto warnings = [](const std::string& drag) {
+    std::string all;
+    const Scene scene = scene_in_even_air(
+        "position_m = [1, 1, 1]\n", 2, 1,
+        "[deputy]\nposition_m = [0, -300, 0]\nspacecraft = {drag_m2_kg = " + drag + "}\n");
+    for (const std::string& one : scene.warnings) all += one + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings("0.04").find("far from that of its chief"), std::string::npos);
+  EXPECT_NE(warnings("0.09").find("deputy.spacecraft: far from that of its chief, got drag_m2_kg = "
+                                  "0.09 beside 0.02, should be up to 0.04"),
+            std::string::npos)
+      << warnings("0.09");
+}
+
 }  // namespace
 }  // namespace hamjet::uncertain_parameters_tests
