@@ -88,6 +88,35 @@ TEST_F(Init, EveryKindRunsAsItIs) {
   }
 }
 
+// A new user who has a vector field does what the scene's comment says.
+TEST_F(Init, OwnTakesAVectorFieldAsItsCommentSays) {
+  succeed({"init", "own"});
+  std::string text = content(directory_ / "own.toml");
+  const std::string comment = text.substr(text.find("# Equations that are not Hamilton's"));
+  for (const char* const told :
+       {"in place of\n# coordinates, momenta and hamiltonian", "parameters stay",
+        "[nominal] has `states = [1.5, 0]`", "[generating_function], [periodic] and"}) {
+    EXPECT_NE(comment.find(told), std::string::npos) << told;
+  }
+  const auto without_line = [&](const std::string& start) {
+    const std::size_t from = text.find("\n" + start);
+    ASSERT_NE(from, std::string::npos) << start;
+    text.erase(from, text.find('\n', from + 1) - from);
+  };
+  without_line("coordinates = [\"theta\"]");
+  without_line("momenta = [\"L\"]");
+  without_line("hamiltonian =");
+  text = changed(text, "# states = ", "states = ");
+  text = changed(text, "# vector_field = ", "vector_field = ");
+  without_line("coordinates = [1.5]");
+  text = changed(text, "momenta = [0]\n", "states = [1.5, 0]\n");
+  text.resize(text.find("[generating_function]"));
+  write("own.toml", text);
+  const Json said = Json::parse(succeed({"run", "own.toml", "--json"}).out);
+  EXPECT_EQ(said["exit_code"], 0);
+  EXPECT_EQ(said["state_names"], Json({"theta", "v"}));
+}
+
 TEST_F(Init, NothingIsReplaced) {
   succeed({"init", "leo"});
   write("leo.toml", "mine");
