@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "../text/quantity_text.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 
@@ -54,6 +56,28 @@ std::array<std::string_view, 3> axis_letters(RelativeFrame frame) {
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame) {
   if (is_along_coordinates(frame)) return {"x", "y", "z"};
   return {"r", "t", "n"};
+}
+
+namespace {
+
+std::vector<std::string> own_or(const SystemSettings& system, RelativeFrame frame,
+                                const std::array<std::string_view, 3>& usual) {
+  if (frame != RelativeFrame::coordinates || !system.own_text) {
+    return {usual.begin(), usual.end()};
+  }
+  const std::vector<std::string>& own = system.own_text->coordinates;
+  const std::size_t count = std::min(own.size(), usual.size());
+  return {own.begin(), own.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+}  // namespace
+
+std::vector<std::string> axis_letters(const SystemSettings& system, RelativeFrame frame) {
+  return own_or(system, frame, axis_letters(frame));
+}
+
+std::vector<std::string> axis_columns(const SystemSettings& system, RelativeFrame frame) {
+  return own_or(system, frame, axis_columns(frame));
 }
 
 std::string choice_text(const ChosenCoordinates& coordinates) {

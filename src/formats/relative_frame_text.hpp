@@ -3,8 +3,10 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/detail/studies/system_settings.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 
 namespace hamjet::io {
@@ -25,6 +27,11 @@ std::string_view velocities_text(RelativeFrame frame);
 std::array<std::string_view, 3> axis_letters(RelativeFrame frame);
 /// Letters of the three axes in names of columns: r, t, n or x, y, z.
 std::array<std::string_view, 3> axis_columns(RelativeFrame frame);
+
+/// The same of a system: along the coordinates of one that its scene writes, their names, of which
+/// there may be fewer than three.
+std::vector<std::string> axis_letters(const SystemSettings& system, RelativeFrame frame);
+std::vector<std::string> axis_columns(const SystemSettings& system, RelativeFrame frame);
 
 /// The reason for a choice of automatic coordinates: "auto: furthest, 162 km; cartesian 6.04 km,
 /// ...". Empty for coordinates that the scene names.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,11 +23,18 @@
 namespace hamjet::io {
 namespace {
 
-/// Reads a vector. A deputy as far from its chief as the centre of attraction, or as fast as the
-/// orbit itself, is beyond every expansion.
-Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, double limit,
-                            std::string_view what) {
-  const std::vector<double> numbers = table.numbers(key, 3);
+/// The number of components of a vector: those of the system's own coordinates, of which studies of
+/// deviations have up to three.
+std::size_t components_of_vectors(const Nominal& nominal) {
+  return nominal.orbit ? 3 : std::min<std::size_t>(3, nominal.state.size() / 2);
+}
+
+/// Reads a vector; coordinates that the system does not have are 0. A deputy as far from its chief
+/// as the centre of attraction, or as fast as the orbit itself, is beyond every expansion.
+Eigen::Vector3d read_vector(const TableReader& table, std::string_view key, std::size_t count,
+                            double limit, std::string_view what) {
+  std::vector<double> numbers = table.numbers(key, count);
+  numbers.resize(3, 0.0);
   const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
   if (!(vector.stableNorm() < limit)) {
     table.fail(key, fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
@@ -186,13 +194,14 @@ RelativeState read_along_axes(const TableReader& table, const Nominal& nominal,
   const MetricUnits units = metric_units(nominal);
   const bool is_near = place == DeputyPlace::near_chief && nominal.orbit.has_value();
   constexpr double no_limit = std::numeric_limits<double>::infinity();
+  const std::size_t count = components_of_vectors(nominal);
   RelativeState state;
-  state.position_m =
-      read_vector(table, "position_m", is_near ? distance_of(nominal) * units.length_m : no_limit,
-                  "the chief's distance from the centre");
+  state.position_m = read_vector(table, "position_m", count,
+                                 is_near ? distance_of(nominal) * units.length_m : no_limit,
+                                 "the chief's distance from the centre");
   if (table.has("velocity_m_s")) {
     state.velocity_m_s =
-        read_vector(table, "velocity_m_s",
+        read_vector(table, "velocity_m_s", count,
                     is_near ? circular_speed_of(nominal) * units.velocity_m_s() : no_limit,
                     "the speed of a circular orbit through the chief");
   }
@@ -221,8 +230,9 @@ GivenForm form_of(const TableReader& table, const Nominal& nominal) {
   if (!nominal.orbit) {
     if (given.empty()) {
       table.fail("position_m",
-                 "missing, must be an array of 3 finite numbers, the deviation of the "
-                 "coordinates from the nominal");
+                 fmt::format("missing, must be an array of {}, the deviation of the coordinates "
+                             "from the nominal",
+                             counted(components_of_vectors(nominal), "finite number")));
     }
     for (const Given& one : given) {
       if (!one.form.is_own_orbit && !one.form.form) continue;
@@ -255,10 +265,12 @@ GivenForm form_of(const TableReader& table, const Nominal& nominal) {
 }  // namespace
 
 std::vector<SceneKey> axes_keys() {
-  return {{"position_m", form::array(form::number(), 3), absent::refused(),
+  // A system of the scene's own may have fewer coordinates than three.
+  const ValueForm vector = form::words("array of 3 numbers", form::array(form::number()));
+  return {{"position_m", vector, absent::refused(),
            "relative to the chief, along the axes of the frame; below its distance from the "
-           "centre"},
-          {"velocity_m_s", form::array(form::number(), 3), absent::other("0, at rest in the frame"),
+           "centre; of a system of one or two coordinates as many numbers"},
+          {"velocity_m_s", vector, absent::other("0, at rest in the frame"),
            "below the speed of a circular orbit through the chief"}};
 }
 

@@ -8,6 +8,8 @@
 
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
+#include "../studies/formation/charts/free_coordinates.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_relative_motion.hpp"
 #include "starts/scene_manoeuvres.hpp"
@@ -68,17 +70,22 @@ FramedTable read_end(const TableReader& fallback, std::string_view key, const No
   return {end, frame, named.head(named.has("frame") ? "frame" : "")};
 }
 
-std::string read_kind(const TableReader& transfer) {
+std::string read_kind(const TableReader& transfer, std::size_t told) {
   std::string kind = TransferSettings().kind;
   transfer.read_if_any("kind", kind);
-  if (explicit_kind(kind, degrees_of_freedom).empty()) {
+  const std::string letters = explicit_kind(kind, told);
+  if (letters.empty()) {
     transfer.fail("kind",
-                  fmt::format("unknown kind, got {}, must be auto, F1, F2, F3, F4, or 3 letters q "
+                  fmt::format("unknown kind, got {}, must be auto, F1, F2, F3, F4, or {} q "
                               "or p for the final variables, a hyphen, and as many for the initial "
-                              "ones, as in {}",
-                              in_quotes(kind), explicit_kind("F2", degrees_of_freedom)));
+                              "{}, as in {}",
+                              in_quotes(kind), counted(told, "letter"), told == 1 ? "one" : "ones",
+                              explicit_kind("F2", told)));
   }
-  return kind;
+  if (told == degrees_of_freedom || kind == "auto") return kind;
+  // What moves freely is told by its coordinates.
+  const std::string free(degrees_of_freedom - told, 'q');
+  return letters.substr(0, told) + free + '-' + letters.substr(told + 1) + free;
 }
 
 /// The margin about singular times, in canonical units. Where there is no orbit, the last transfer
@@ -330,7 +337,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   }
   settings.frame = first ? first->frame : frame_of(transfer, transfer, scene.deputy, nominal);
   settings.times = read_transfer_times(transfer, scene, nominal);
-  settings.kind = read_kind(transfer);
+  settings.kind = read_kind(transfer, told_coordinates(scene.system));
   transfer.read_if_any("tolerance_m", settings.tolerance_m);
   transfer.read_if_any("refine", settings.refine);
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
@@ -343,6 +350,12 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     settings.impulse_gap = nominal.scale.time_of_s(transfer.number("impulse_gap_s"));
   }
   if (transfer.has("keep_out_m")) {
+    if (settings.thrust == TransferThrust::energy_optimal) {
+      transfer.fail("keep_out_m", fmt::format("not looked at on ways of a thrust that lasts, got "
+                                              "{}, must be left out, or beside thrust = "
+                                              "\"impulses\"",
+                                              transfer.found("keep_out_m")));
+    }
     settings.keep_out_m = read_keep_out(transfer, settings, has_ends);
   }
   if (transfer.has("revolutions")) settings.revolutions = read_revolutions(transfer, has_ends);
@@ -350,12 +363,6 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     if (!has_ends) transfer.fail("longest_coast_s", "no start and end, must be there with it");
     settings.longest_coast = nominal.scale.time_of_s(transfer.number("longest_coast_s"));
   }
-    if (settings.thrust == TransferThrust::energy_optimal) {
-      transfer.fail("keep_out_m", fmt::format("not looked at on ways of a thrust that lasts, got "
-                                              "{}, must be left out, or beside thrust = "
-                                              "\"impulses\"",
-                                              transfer.found("keep_out_m")));
-    }
   if (transfer.has("waypoint")) {
     if (!has_ends) transfer.fail("waypoint", "no start and end, must be there with waypoints");
     settings.waypoints = read_waypoints(transfer, nominal, settings.times);

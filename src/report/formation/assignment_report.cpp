@@ -275,7 +275,7 @@ TableView assignment_table(const AssignmentResult& result) {
               "failure"};
   }
   table.keep_in_csv(in_csv);
-  add_frame(table, scene.transfer->frame, result.coordinates);
+  add_frame(table, scene.system, scene.transfer->frame, result.coordinates);
   const auto& common = result.common_time;
   table.add_scalar(
       "common_time_s", "s", "the time of all transfers, where the scene asks for a common one",

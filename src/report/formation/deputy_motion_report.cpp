@@ -226,7 +226,7 @@ TableView deputy_motion_table(const DeputyMotion& motion) {
       "error_m_by_order", errors, "m",
       "the distance of the flown deputy from where the polynomials of the orders 1 to N have it",
       &DeputyMotionPoint::errors_m);
-  add_frame(table, frame, motion.coordinates);
+  add_frame(table, motion.scene.system, frame, motion.coordinates);
   table.add_scalar("verdict", "",
                    "how near and how far the deputy comes, and how wrong the polynomials are",
                    deputy_motion_verdict(motion));

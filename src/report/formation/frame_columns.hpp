@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/result_table.hpp"
@@ -8,11 +10,17 @@
 
 namespace hamjet::io {
 
+/// The first components of a vector along a frame's axes, of which a system may have fewer than
+/// three.
+inline std::vector<double> along_told_axes(const Eigen::Vector3d& vector, std::size_t count) {
+  return {vector.begin(), vector.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
 /// Adds the frame that a result is told in, and the coordinates of its polynomials; `is_in_csv`
 /// says whether each row has them too.
 template <class Row>
-void add_frame(ResultTable<Row>& table, RelativeFrame frame, const CoordinatesAtEnds& coordinates,
-               bool is_in_csv = false) {
+void add_frame(ResultTable<Row>& table, const SystemSettings& system, RelativeFrame frame,
+               const CoordinatesAtEnds& coordinates, bool is_in_csv = false) {
   const auto add = [&](const char* name, const char* meaning, std::string_view value) {
     table.add_scalar(name, "", meaning, value).is_in_csv = is_in_csv;
   };
@@ -21,7 +29,9 @@ void add_frame(ResultTable<Row>& table, RelativeFrame frame, const CoordinatesAt
       derivatives_name(frame));
   add("coordinates", "coordinates of the polynomials at the start", name_of(coordinates.start));
   add("end_coordinates", "coordinates of the polynomials at the end", name_of(coordinates.end));
-  table.add_scalars("axes", "", "letters of the frame's axes", axis_letters(frame));
+  table.add_scalars("axes", "",
+                    "the frame's axes: R, T, N or x, y, z, or an own system's coordinates",
+                    axis_letters(system, frame));
 }
 
 }  // namespace hamjet::io

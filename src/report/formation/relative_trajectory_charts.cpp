@@ -48,20 +48,54 @@ std::string amplitude_text(const RelativeTrajectory& trajectory, Eigen::Index ax
                      length_text(most), length_text((most - least) / 2));
 }
 
+/// The only coordinate of a system against the time.
+Chart chart_of_one(const RelativeTrajectory& trajectory, double time_s, const std::string& axis) {
+  const RelativeExtent extent = extent_of(trajectory);
+  const bool is_in_km = extent.largest_m() >= 1000;
+  const TimeAxis time = time_axis(trajectory.times.empty() ? 0 : trajectory.times.back() * time_s);
+  Chart chart;
+  chart.name = "relative-" + axis;
+  chart.title = fmt::format("Relative trajectory, {} against the time", axis);
+  chart.x.label = fmt::format("time ({})", time.name);
+  chart.y.label = fmt::format("{} ({})", axis, is_in_km ? "km" : "m");
+  chart.is_panel = true;
+  ChartCurve path;
+  path.title = "deputy";
+  path.has_markers = false;
+  for (std::size_t i = 0; i < trajectory.states.size(); ++i) {
+    path.points.emplace_back(trajectory.times[i] * time_s / time.seconds,
+                             trajectory.states[i].position_m[0] * (is_in_km ? 1e-3 : 1));
+  }
+  chart.curves.push_back(std::move(path));
+  chart.notes.push_back(fmt::format("Of the deputy: {}.", amplitude_text(trajectory, 0, axis)));
+  chart.reading = "The deputy as it was flown, less the chief.";
+  return chart;
+}
+
 }  // namespace
 
-std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory, double time_s) {
+std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajectory, double time_s,
+                                              std::vector<std::string> axes) {
+  if (axes.size() == 1) return {chart_of_one(trajectory, time_s, axes[0])};
   const RelativeExtent extent = extent_of(trajectory);
   const bool has_chief = extent.is_near(Eigen::Vector3d::Zero(), 1);
   const bool is_in_km = extent.largest_m() >= 1000;
   const double unit = is_in_km ? 1e-3 : 1;
-  const auto letters = axis_letters(trajectory.frame);
-  const auto columns = axis_columns(trajectory.frame);
+  const auto usual = axis_letters(trajectory.frame);
+  const auto in_names = axis_columns(trajectory.frame);
+  std::vector<std::string> columns = axes;
+  if (axes.empty()) {
+    axes.assign(usual.begin(), usual.end());
+    columns.assign(in_names.begin(), in_names.end());
+  }
+  const std::vector<std::string>& letters = axes;
   const TimeAxis time = time_axis(trajectory.times.empty() ? 0 : trajectory.times.back() * time_s);
   std::vector<double> times;
   for (const double t : trajectory.times) times.push_back(t * time_s / time.seconds);
   std::vector<Chart> charts;
   for (const Projection& projection : projections) {
+    const auto count = static_cast<Eigen::Index>(letters.size());
+    if (projection.across >= count || projection.upwards >= count) continue;
     const auto letter = [&](Eigen::Index axis) { return letters[static_cast<std::size_t>(axis)]; };
     const auto column = [&](Eigen::Index axis) { return columns[static_cast<std::size_t>(axis)]; };
     Chart chart;
@@ -106,8 +140,8 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     if (has_chief) mark("chief", 2, {0, 0});
     charts.push_back(std::move(chart));
   }
-  const std::string_view axes =
-      trajectory.frame == RelativeFrame::coordinates ? "The axes x, y, z are the three coordinates."
+  const std::string_view meaning =
+      trajectory.frame == RelativeFrame::coordinates ? "The axes are the system's coordinates."
       : trajectory.frame == RelativeFrame::inertial
           ? "The axes x, y, z are the inertial ones of the orbit."
           : "R points away from the centre of the Earth, N along the orbit's angular momentum, T "
@@ -116,13 +150,15 @@ std::vector<Chart> relative_trajectory_charts(const RelativeTrajectory& trajecto
     charts.front().notes.push_back(
         fmt::format("So that the path can be seen {}.", far_chief_text(extent)));
   }
-  charts.front().notes.push_back(fmt::format(
-      "Of the deputy: {}; {}; {}.", amplitude_text(trajectory, 0, letters[0]),
-      amplitude_text(trajectory, 1, letters[1]), amplitude_text(trajectory, 2, letters[2])));
+  std::vector<std::string> amplitudes;
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    amplitudes.push_back(amplitude_text(trajectory, static_cast<Eigen::Index>(i), letters[i]));
+  }
+  charts.front().notes.push_back(fmt::format("Of the deputy: {}.", fmt::join(amplitudes, "; ")));
   charts.front().reading = fmt::format(
-      "The deputy as it was flown, relative to the chief at the origin, in three projections of "
+      "The deputy as it was flown, relative to the chief at the origin, {} of "
       "one scale for all axes; its colour is the time. {}",
-      axes);
+      charts.size() == 1 ? "in a plane" : "in three projections", meaning);
   return charts;
 }
 

@@ -16,7 +16,7 @@ constexpr double most_spans_of_drift = 4;
 
 }  // namespace
 
-Chart rendezvous_chart(const RelativeTrajectory& trajectory) {
+Chart rendezvous_chart(const RelativeTrajectory& trajectory, const std::vector<std::string>& axes) {
   const Eigen::Vector3d at_chief = Eigen::Vector3d::Zero();
   RelativeExtent extent;
   extent.include(trajectory.states);
@@ -31,7 +31,9 @@ Chart rendezvous_chart(const RelativeTrajectory& trajectory) {
   const std::vector<RelativeState> drift(unchanged.begin(), first_away);
   extent.include(drift);
   const bool is_in_km = extent.largest_m() >= 1000;
-  const auto letters = axis_letters(trajectory.frame);
+  const auto usual = axis_letters(trajectory.frame);
+  const std::vector<std::string> letters =
+      axes.size() > 1 ? axes : std::vector<std::string>(usual.begin(), usual.end());
   Chart chart;
   chart.name = "rendezvous";
   chart.title =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "transfer_view.hpp"
@@ -254,9 +255,13 @@ Chart condition_chart(const TransferResult& result) {
   };
   constexpr std::array<const char*, 4> names = {"F1", "F2", "F3", "F4"};
   for (std::size_t n = 0; n < names.size(); ++n) {
-    const GeneratingFunctionKind kind = parse_kind(names[n], 3);
-    const auto place = std::find(conditions.kinds.begin(), conditions.kinds.end(), kind);
+    const SystemSettings& system = result.scene.system;
+    const std::string wanted = parse_kind(names[n], told_coordinates(system)).name();
+    const auto place = std::find_if(
+        conditions.kinds.begin(), conditions.kinds.end(),
+        [&](const GeneratingFunctionKind& kind) { return told_kind(kind, system) == wanted; });
     if (place == conditions.kinds.end()) continue;
+    const GeneratingFunctionKind& kind = *place;
     const auto k = static_cast<std::size_t>(place - conditions.kinds.begin());
     chart.curves.push_back(
         curve_of(names[n], n, [k](const std::vector<double>& values) { return values[k]; }));
@@ -264,9 +269,10 @@ Chart condition_chart(const TransferResult& result) {
       if (singular.kind == kind) chart.curves.back().ticks.push_back(singular.time * unit);
     }
   }
-  chart.curves.push_back(curve_of("best of all 64", 4, [](const std::vector<double>& values) {
-    return *std::min_element(values.begin(), values.end());
-  }));
+  chart.curves.push_back(curve_of(fmt::format("best of all {}", conditions.kinds.size()), 4,
+                                  [](const std::vector<double>& values) {
+                                    return *std::min_element(values.begin(), values.end());
+                                  }));
   chart.curves.back().has_line = true;
   chart.reading =
       "A generating function exists where the block of the linear flow that it inverts is regular; "

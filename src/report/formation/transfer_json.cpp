@@ -2,8 +2,10 @@
 
 #include "../../scene/systems/system_json.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "burn_view.hpp"
 #include "drift_view.hpp"
+#include "frame_columns.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
@@ -50,6 +52,13 @@ Json misses_json(const TransferResult& result) {
   return json;
 }
 
+/// Along the coordinates that the scene's system has.
+Json told_json(const Eigen::Vector3d& vector, std::size_t count) {
+  Json json = Json::array();
+  for (const double x : along_told_axes(vector, count)) json.push_back(json_number(x));
+  return json;
+}
+
 }  // namespace
 
 Json vector_json(const Eigen::Vector3d& vector) {
@@ -73,8 +82,9 @@ Json transfer_point_json(const TransferPoint& point, const Scene& scene) {
   Json json = row_json(transfer_columns(scene).view({point}, {1}), 0);
   json["after_arrival"] = nullptr;
   if (shown_answer(point) != nullptr) {
-    json["after_arrival"] = {{"position_m", vector_json(point.arrived.position_m)},
-                             {"velocity_m_s", vector_json(point.arrived.velocity_m_s)}};
+    const std::size_t count = told_coordinates(scene.system);
+    json["after_arrival"] = {{"position_m", told_json(point.arrived.position_m, count)},
+                             {"velocity_m_s", told_json(point.arrived.velocity_m_s, count)}};
     add_drift(json["after_arrival"], point.drift, point.arrived);
   }
   return json;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "burn_view.hpp"
+#include "frame_columns.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
 #include "transfer_charts.hpp"
@@ -21,11 +23,15 @@ std::string fitted_section(Chart chart, ChartDrawer& drawer) {
   return section_html(chart, drawer);
 }
 
-std::string state_text(const RelativeState& state) {
-  const auto& q = state.position_m;
-  const auto& v = state.velocity_m_s;
-  return fmt::format("({:g}, {:g}, {:g}) m, ({:g}, {:g}, {:g}) m/s", q[0], q[1], q[2], v[0], v[1],
-                     v[2]);
+std::string state_text(const RelativeState& state, const Scene& scene) {
+  const auto told = [count = told_coordinates(scene.system)](const Eigen::Vector3d& vector) {
+    std::string text;
+    for (const double x : along_told_axes(vector, count)) {
+      text += fmt::format("{}{:g}", text.empty() ? "" : ", ", x);
+    }
+    return text;
+  };
+  return fmt::format("({}) m, ({}) m/s", told(state.position_m), told(state.velocity_m_s));
 }
 
 std::string end_text(const Scene& scene) {
@@ -38,7 +44,7 @@ std::string end_text(const Scene& scene) {
     }
     return text;
   }
-  if (!end.own_state) return state_text(end);
+  if (!end.own_state) return state_text(end, scene);
   const auto& z = *end.own_state;
   const double km = scene.units.length_km, km_s = km / scene.units.time_s;
   return fmt::format("its own orbit, ({:g}, {:g}, {:g}) km, ({:g}, {:g}, {:g}) km/s at arrival",
@@ -58,7 +64,8 @@ std::string facts_html(const TransferResult& result, const ReportOrigin& origin)
   }
   return origin_facts_html(origin) + fact_html("Scene", scene_text(result.scene)) +
          fact_html("Frame", frame_text(settings.frame) + coordinates_text(result.coordinates)) +
-         fact_html("Start", state_text(settings.start)) + fact_html("End", end_text(result.scene)) +
+         fact_html("Start", state_text(settings.start, result.scene)) +
+         fact_html("End", end_text(result.scene)) +
          fact_html("Transfer times", fmt::format("{}, {:.6g} s to {:.6g} s{}", result.points.size(),
                                                  settings.times.front() * unit,
                                                  settings.times.back() * unit, outcomes)) +
@@ -78,7 +85,11 @@ std::string trajectory_section(const TransferResult& result,
   }
   html += fmt::format("<p>The transfer of the least velocity change, in {}.</p>\n",
                       time_text(result.points[*best].time * result.scene.units.time_s));
-  std::vector<Chart> charts = relative_trajectory_charts(*trajectory, result.scene.units.time_s);
+  std::vector<Chart> charts =
+      relative_trajectory_charts(*trajectory, result.scene.units.time_s,
+                                 result.scene.transfer->frame == RelativeFrame::coordinates
+                                     ? axis_letters(result.scene.system, RelativeFrame::coordinates)
+                                     : std::vector<std::string>());
   for (Chart& chart : charts) fit(chart);
   return html + panels_html(charts, drawer) + "</section>\n";
 }

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../drawing/report_page.hpp"
+#include "frame_columns.hpp"
 #include "transfer_page.hpp"
 #include "transfer_view.hpp"
 
@@ -13,32 +15,32 @@ namespace {
 std::string number(double value) { return fmt::format("{:.5g}", value); }
 
 /// The columns of both impulses.
-std::vector<std::string> impulse_names(RelativeFrame frame) {
+std::vector<std::string> impulse_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const char* impulse : {"first", "second"}) {
-    for (const std::string_view axis : axis_letters(frame)) {
+    for (const std::string& axis : axis_letters(scene.system, scene.transfer->frame)) {
       names.push_back(fmt::format("{} {} (m/s)", impulse, axis));
     }
   }
   return names;
 }
 
-std::string impulse_cells(const TransferAnswer& answer) {
+std::string impulse_cells(const TransferAnswer& answer, std::size_t count) {
   std::string cells;
   for (const Eigen::Vector3d* change : {&answer.start_change_m_s, &answer.end_change_m_s}) {
-    for (const double component : *change) cells += cell(number(component));
+    for (const double component : along_told_axes(*change, count)) cells += cell(number(component));
   }
   return cells;
 }
 
-std::string answer_row(const std::string& name, const TransferAnswer& answer,
+std::string answer_row(const std::string& name, const TransferAnswer& answer, std::size_t count,
                        double flight_floor_m) {
   if (!answer.failure.empty()) {
-    return fmt::format("<tr class=\"failed\">{}<td class=\"reason\" colspan=\"8\">{}</td></tr>\n",
-                       row_name_cell(name), escape_html(answer.failure));
+    return fmt::format("<tr class=\"failed\">{}<td class=\"reason\" colspan=\"{}\">{}</td></tr>\n",
+                       row_name_cell(name), 2 + 2 * count, escape_html(answer.failure));
   }
   return "<tr>" + row_name_cell(name) + cell(number(answer.total_change_m_s())) +
-         impulse_cells(answer) + cell(miss_text(answer.miss_m, flight_floor_m)) + "</tr>\n";
+         impulse_cells(answer, count) + cell(miss_text(answer.miss_m, flight_floor_m)) + "</tr>\n";
 }
 
 std::string marks_text(const TransferPoint& point) {
@@ -62,25 +64,27 @@ std::string best_transfer_table_html(const TransferResult& result) {
   }
   const TransferPoint& point = result.points[*best];
   std::vector<std::string> names = {"answer", "both (m/s)"};
-  for (std::string& name : impulse_names(result.scene.transfer->frame)) {
+  for (std::string& name : impulse_names(result.scene)) {
     names.push_back(std::move(name));
   }
   names.emplace_back("miss");
+  const std::size_t count = told_coordinates(result.scene.system);
   std::string rows;
   for (const TransferAnswer& answer : point.answers) {
-    rows += answer_row(fmt::format("order {}", answer.order), answer, result.flight_floor_m);
+    rows += answer_row(fmt::format("order {}", answer.order), answer, count, result.flight_floor_m);
   }
   if (point.refined) {
     rows += answer_row(fmt::format("refined, {}", counted(point.refinement_flights, "more flight")),
-                       *point.refined, result.flight_floor_m);
+                       *point.refined, count, result.flight_floor_m);
   }
   return table_html(
       escape_html(fmt::format(
           "Velocity changes for the transfer in {}, generating function {} (condition {:.3g}), "
           "along the axes of the frame {} at the start and at the end, and the distance from the "
           "wanted end of a deputy that flew them.",
-          time_text(point.time * result.scene.units.time_s), point.kind ? point.kind->name() : "-",
-          point.condition, frame_text(result.scene.transfer->frame))),
+          time_text(point.time * result.scene.units.time_s),
+          point.kind ? told_kind(*point.kind, result.scene.system) : "-", point.condition,
+          frame_text(result.scene.transfer->frame))),
       "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
@@ -144,7 +148,7 @@ std::string transfers_table_html(const TransferResult& result) {
       continue;
     }
     const TransferAnswer* linear = answer_of_order(point, 1);
-    rows += "<tr>" + time + cell(point.kind ? point.kind->name() : "–") +
+    rows += "<tr>" + time + cell(point.kind ? told_kind(*point.kind, result.scene.system) : "–") +
             cell(fmt::format("{:.3g}", point.condition)) + cell(number(shown->total_change_m_s())) +
             cell(number(shown->start_change_m_s.norm())) +
             cell(number(shown->end_change_m_s.norm())) +

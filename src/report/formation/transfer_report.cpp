@@ -4,6 +4,7 @@
 #include "../../formats/output_formats.hpp"
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_text.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
@@ -32,8 +33,8 @@ std::string change_line(const TransferResult& result, const char* name,
   return fmt::format("  {:<17}{} in {}, {}, {}: misses by {}\n", name,
                      velocity_text(answer.total_change_m_s()),
                      time_text(point.time * result.scene.units.time_s),
-                     point.kind ? point.kind->name() : "no kind", answer_name(point),
-                     miss_text(answer.miss_m, result.flight_floor_m));
+                     point.kind ? told_kind(*point.kind, result.scene.system) : "no kind",
+                     answer_name(point), miss_text(answer.miss_m, result.flight_floor_m));
 }
 
 std::string singular_line(const TransferResult& result) {
@@ -143,7 +144,16 @@ StudyReport transfer_report(const TransferResult& result,
   report.files.push_back({"report.html", transfer_page(result, trajectory, origin, drawer)});
   report.drawing_problem = drawer.problem();
   if (trajectory && !report.drawing_problem) {
-    add_figure(report, {rendezvous_chart(*trajectory)}, origin.gnuplot);
+    std::vector<std::string> axes;
+    if (result.scene.transfer->frame == RelativeFrame::coordinates) {
+      axes = axis_letters(result.scene.system, RelativeFrame::coordinates);
+    }
+    // One coordinate has no plane.
+    const Chart figure =
+        axes.size() == 1
+            ? relative_trajectory_charts(*trajectory, result.scene.units.time_s, axes).front()
+            : rendezvous_chart(*trajectory, axes);
+    add_figure(report, {figure}, origin.gnuplot);
   }
   report.exit_code = exit_code(result);
   report.failure = transfer_failure(result);

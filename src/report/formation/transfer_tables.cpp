@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "../../formats/relative_frame_text.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "burn_view.hpp"
 #include "frame_columns.hpp"
 #include "thrust_view.hpp"
@@ -39,10 +40,10 @@ auto of_shown(Value value) {
 }
 
 /// The names of a vector's components along the frame's axes, as in "start_change_r_m_s".
-std::vector<std::string> axis_parts(RelativeFrame frame, std::string_view before,
+std::vector<std::string> axis_parts(const Scene& scene, std::string_view before,
                                     std::string_view after) {
   std::vector<std::string> names;
-  for (const std::string_view axis : axis_columns(frame)) {
+  for (const std::string& axis : axis_columns(scene.system, scene.transfer->frame)) {
     names.push_back(fmt::format("{}{}{}", before, axis, after));
   }
   return names;
@@ -68,15 +69,17 @@ TableColumn& add_by_order(ResultTable<TransferPoint>& table, const Scene& scene,
 
 void add_change_by_order(ResultTable<TransferPoint>& table, const Scene& scene, std::string name,
                          std::string meaning, Change change) {
+  const std::size_t count = told_coordinates(scene.system);
   TableColumn& column = add_by_order(
       table, scene, std::move(name), "m/s", std::move(meaning),
-      [change](const TransferAnswer* answer, std::vector<std::optional<double>>& values) {
-        for (const Eigen::Index i : {0, 1, 2}) {
-          values.push_back(
-              of_answer(answer, [&](const TransferAnswer& a) { return (a.*change)[i]; }));
+      [change, count](const TransferAnswer* answer, std::vector<std::optional<double>>& values) {
+        for (std::size_t i = 0; i < count; ++i) {
+          values.push_back(of_answer(answer, [&](const TransferAnswer& a) {
+            return (a.*change)[static_cast<Eigen::Index>(i)];
+          }));
         }
       });
-  column.lengths = {static_cast<std::size_t>(scene.order), 3};
+  column.lengths = {static_cast<std::size_t>(scene.order), count};
   column.is_in_csv = column.is_in_json = false;
 }
 
@@ -121,7 +124,7 @@ void add_refinement(ResultTable<TransferPoint>& table) {
 void add_scalars(ResultTable<TransferPoint>& table, const TransferResult& result) {
   const auto best = result.best_point();
   const std::size_t last = result.points.size() - 1;
-  add_frame(table, result.scene.transfer->frame, result.coordinates);
+  add_frame(table, result.scene.system, result.scene.transfer->frame, result.coordinates);
   table.add_scalar("verdict", "", "the outcome in words", transfer_verdict(result));
   table
       .add_scalar("best", "",
@@ -155,7 +158,10 @@ void add_scalars(ResultTable<TransferPoint>& table, const TransferResult& result
 ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
   const double unit = scene.units.time_s;
   const double length_km = scene.units.length_km;
-  const RelativeFrame frame = scene.transfer->frame;
+  const auto told_change = [count = told_coordinates(scene.system)](Change change) {
+    return of_shown(
+        [=](const TransferAnswer& answer) { return along_told_axes(answer.*change, count); });
+  };
   const auto has_kind = [](Point point) { return point.kind.has_value(); };
   ResultTable<TransferPoint> table("transfers", "", {"times"},
                                    "Velocity changes of two impulses, one row a transfer time.");
@@ -168,7 +174,7 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
   table.add_if(
       has_kind, "kind", "",
       "the generating function used; nothing where no kind exists, or in other coordinates",
-      [](Point point) { return point.kind->name(); });
+      [&scene](Point point) { return told_kind(*point.kind, scene.system); });
   table.add("condition", "", "the condition of the linear part of that generating function",
             [](Point point) { return point.kind ? condition(point.condition) : std::nullopt; });
   table.add("position_condition", "",
@@ -194,12 +200,12 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
             [=](Point point) { return times(point.lowest, length_km); });
   table.add("below_surface", "", "whether that is less than the check of the surface allows",
             &TransferPoint::is_below_surface);
-  table.add_array("start_change_m_s", axis_parts(frame, "start_change_", "_m_s"), "m/s",
+  table.add_array("start_change_m_s", axis_parts(scene, "start_change_", "_m_s"), "m/s",
                   "the velocity change at the start, along the frame's axes",
-                  of_shown(&TransferAnswer::start_change_m_s));
-  table.add_array("end_change_m_s", axis_parts(frame, "end_change_", "_m_s"), "m/s",
+                  told_change(&TransferAnswer::start_change_m_s));
+  table.add_array("end_change_m_s", axis_parts(scene, "end_change_", "_m_s"), "m/s",
                   "the velocity change at the end, along the frame's axes",
-                  of_shown(&TransferAnswer::end_change_m_s));
+                  told_change(&TransferAnswer::end_change_m_s));
   table.add("total_change_m_s", "m/s", "the sum of the magnitudes of both velocity changes",
             of_shown(&TransferAnswer::total_change_m_s));
   table
@@ -234,7 +240,7 @@ TableView singular_times_table(const TransferResult& result) {
                                   "Times at which a generating function does not exist.");
   table.leave_rows_out_of_json();
   table.add("kind", "", "the kind of generating function; qqq-qqq is F1",
-            [](Singular singular) { return singular.kind.name(); });
+            [&](Singular singular) { return told_kind(singular.kind, result.scene.system); });
   table.add("time_canonical", "", "since the start, in the scene's canonical unit of time",
             [&](Singular singular) { return told_time(result.scene, singular.time); });
   table.add("time_s", "s", "since the start",
@@ -248,11 +254,19 @@ TableView singular_times_table(const TransferResult& result) {
   table.add("directions_lost", "",
             "the number of singular values that rounding cannot tell from zero",
             &SingularTime::directions_lost);
-  table.add_array("direction_inertial",
-                  {"direction_inertial_x", "direction_inertial_y", "direction_inertial_z"}, "",
+  const bool is_along_own = result.scene.transfer->frame == RelativeFrame::coordinates;
+  std::vector<std::string> directions;
+  for (const std::string& axis :
+       axis_columns(result.scene.system,
+                    is_along_own ? RelativeFrame::coordinates : RelativeFrame::inertial)) {
+    directions.push_back("direction_inertial_" + axis);
+  }
+  table.add_array("direction_inertial", directions, "",
                   "the inertial unit vector of the direction that is not commanded; for F1 a "
-                  "direction of the final position",
-                  &SingularTime::direction);
+                  "direction of the final position; along the coordinates of an own system",
+                  [count = directions.size()](Singular singular) {
+                    return along_told_axes(singular.direction, count);
+                  });
   table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
                   "the same unit vector along the chief's R, T, N at that time",
                   &SingularTime::direction_rtn);
@@ -269,7 +283,9 @@ TableView singular_times_table(const TransferResult& result) {
 TableView conditions_table(const TransferResult& result) {
   const KindConditions& conditions = result.conditions;
   std::vector<std::string> kinds;
-  for (const GeneratingFunctionKind& kind : conditions.kinds) kinds.push_back(kind.name());
+  for (const GeneratingFunctionKind& kind : conditions.kinds) {
+    kinds.push_back(told_kind(kind, result.scene.system));
+  }
   ResultTable<std::size_t> table("conditions", "", {"times"},
                                  "Conditions of the linear parts of all kinds of generating "
                                  "functions along time.");
@@ -319,8 +335,11 @@ TableView impulses_table(const std::string& name, const std::string& place,
             [&](const Impulse& impulse) { return told_time(scene, impulse.time); });
   table.add("time_s", "s", "since the start",
             [=](const Impulse& impulse) { return impulse.time * unit; });
-  table.add_array("change_m_s", axis_parts(scene.transfer->frame, "change_", "_m_s"), "m/s",
-                  "the velocity change, along the frame's axes at that time", &Impulse::change_m_s);
+  table.add_array("change_m_s", axis_parts(scene, "change_", "_m_s"), "m/s",
+                  "the velocity change, along the frame's axes at that time",
+                  [count = told_coordinates(scene.system)](const Impulse& impulse) {
+                    return along_told_axes(impulse.change_m_s, count);
+                  });
   table.add("magnitude_m_s", "m/s", "the magnitude of the velocity change",
             [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
   return std::move(table).view(impulses, {impulses.size()});

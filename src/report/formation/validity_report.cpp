@@ -99,7 +99,7 @@ TableView validity_table(const ValidityResult& result) {
   table.add("at_limit", "",
             "whether nothing further away was tried, so that the separation is a lower bound",
             of_entry(&ValidityEntry::is_at_limit));
-  add_frame(table, settings.frame, result.coordinates, true);
+  add_frame(table, result.scene.system, settings.frame, result.coordinates, true);
   table.add("limit_degree", "",
             "d log(miss) / d log(separation) of the worst deputy; nothing where nothing limits",
             of_limit(&ReachLimit::degree));

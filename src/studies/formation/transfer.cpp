@@ -14,6 +14,7 @@
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
 #include "burns/finite_burns.hpp"
+#include "charts/free_coordinates.hpp"
 #include "coasting_transfer.hpp"
 #include "flown_trajectory.hpp"
 #include "formation_problem.hpp"
@@ -73,8 +74,15 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   require_deviation_problem(asked, asked.transfer.has_value(), "transfer");
   require_states_alone(asked, "transfer");
   if (earlier != nullptr) require_one_spacecraft(asked, "transfer from an earlier jet");
-  Scene scene = asked;
+  Scene scene = with_free_coordinates(asked);
   if (earlier != nullptr) {
+    if (scene.nominal.size() != asked.nominal.size()) {
+      throw Error(
+          ErrorKind::scene,
+          fmt::format("transfer: of a jet of {} coordinates, got the earlier jet {}, must be "
+                      "the scene itself, or a Hamiltonian of three coordinates",
+                      told_coordinates(asked.system), earlier->label));
+    }
     scene.order = earlier->jet.at(0).order();
     scene.transfer->times = {earlier->time};
   }

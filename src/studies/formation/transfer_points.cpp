@@ -17,6 +17,7 @@
 #include "../flights/relative_drift.hpp"
 #include "../random_direction.hpp"
 #include "../stopwatch.hpp"
+#include "charts/free_coordinates.hpp"
 #include "formation_problem.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/studies/validity.hpp"
@@ -68,6 +69,9 @@ TransferPoints::TransferPoints(const Scene& scene, const ProgressCallback& progr
     linear_problem_ = problem_;
     linear_problem_->space = SeriesSpace::create(problem_.variables.size(), 1);
   }
+  std::erase_if(kinds_, [&](const GeneratingFunctionKind& kind) {
+    return !has_told_name(kind, scene.system);
+  });
   find_singular_times(progress);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../../random_direction.hpp"
+#include "free_coordinates.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
 #include "hamjet/studies/propagation.hpp"
 
@@ -60,7 +61,8 @@ std::optional<VelocityLaw> velocity_law(const DynamicalSystem& system,
   return result;
 }
 
-std::string missing_for_deviations(const Scene& scene) {
+std::string missing_for_deviations(const Scene& asked) {
+  const Scene scene = with_free_coordinates(asked);
   const SharedSystem system = make_system(scene);
   if (scene.system.own_text && !scene.system.own_text->states.empty()) {
     return "not available for a vector field, got system.vector_field, must be a Hamiltonian: "
@@ -75,8 +77,7 @@ std::string missing_for_deviations(const Scene& scene) {
   if (system->degrees_of_freedom != degrees) {
     return fmt::format(
         "not available for this system, got {} of freedom, must be an orbit or a "
-        "Hamiltonian of three coordinates; a further coordinate z may be one that "
-        "moves freely, pz^2/2 in the Hamiltonian",
+        "Hamiltonian of one to three coordinates",
         system->degrees_of_freedom == 1 ? std::string("one degree")
                                         : fmt::format("{} degrees", system->degrees_of_freedom));
   }

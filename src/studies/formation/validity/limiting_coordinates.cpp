@@ -65,10 +65,28 @@ Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double
 
 }  // namespace
 
+namespace {
+
+/// The components of a deviation along the frame: of a system that the scene writes its coordinates
+/// and, with a v before the name, their rates.
+std::vector<std::string> told_components(RelativeFrame frame, const SystemSettings& system) {
+  const auto usual = component_names(frame);
+  std::vector<std::string> names(usual.begin(), usual.end());
+  if (frame != RelativeFrame::coordinates || !system.own_text) return names;
+  const std::vector<std::string>& own = system.own_text->coordinates;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, own.size()); ++i) {
+    names[i] = own[i];
+    names[3 + i] = "v" + own[i];
+  }
+  return names;
+}
+
+}  // namespace
+
 LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, const DeputyFlow& flow,
-                                   RelativeFrame frame) {
+                                   RelativeFrame frame, const SystemSettings& system) {
   const CoordinatesAtEnds& ends = propagation.coordinates();
-  const auto components = component_names(frame);
+  const std::vector<std::string> components = told_components(frame, system);
   LimitCoordinates names;
   names.start = propagation.variable_names();
   names.end = propagation.value_names();

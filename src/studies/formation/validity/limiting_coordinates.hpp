@@ -19,7 +19,7 @@ struct LimitCoordinates {
 /// The names of the polynomials' variables and values at the propagation's last time. At an end
 /// with positions and momenta, the names are those of the components of the frame.
 LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, const DeputyFlow& flow,
-                                   RelativeFrame frame);
+                                   RelativeFrame frame, const SystemSettings& system);
 
 /// The limit of an order at a deputy, which is given by its coordinates along the ellipsoids' axes.
 ReachLimit reach_limit(FlownDeputies& deputies, int order, const Vector6& deputy,

@@ -13,6 +13,7 @@
 #include "../charts/deputy_flows.hpp"
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
+#include "../charts/free_coordinates.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
 #include "limiting_coordinates.hpp"
@@ -77,7 +78,7 @@ class ValidityStudy {
                            momentum_per_length(scene_), metric_units(scene_).velocities);
     std::mt19937_64 generator(1);
     for (int k = 0; k < settings_.samples; ++k) {
-      samples_.push_back(random_coordinates(generator));
+      samples_.push_back(told(random_coordinates(generator)));
     }
     // Polynomials in elements may be exact for every bound orbit. They fail only where a deputy
     // escapes or falls, which is found along the energy alone.
@@ -97,9 +98,10 @@ class ValidityStudy {
     for (int d = 1; d <= known; ++d) {
       worst_of_degrees[static_cast<std::size_t>(d)] = slices.maxima_and(samples_, d);
     }
-    const double rounding = rounding_of_flights(problem_, time_);
-    result_.flight_floor_m = rounding * metres_;
-    const LimitCoordinates names = limit_coordinates(propagation, flow, settings_.frame);
+    const DeputyRounding rounding(problem_, time_, largest_separation_);
+    result_.flight_floor_m = rounding.at(0) * metres_;
+    const LimitCoordinates names =
+        limit_coordinates(propagation, flow, settings_.frame, scene_.system);
     const std::vector<double> sizes = slice_sizes(slices, worst_of_degrees);
     double share = 0;  // fraction of the time's orders that are done
     FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
@@ -117,6 +119,17 @@ class ValidityStudy {
           std::min(next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation_,
                    largest_separation_);
       entry.predicted_m = predicted * metres_;
+  /// The direction without coordinates that move freely, which the ellipsoid does not have.
+  Vector6 told(Vector6 direction) const {
+    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        if (settings_.semi_axes[static_cast<std::size_t>(i)] == 0) direction[first + i] = 0;
+      }
+      direction.segment<3>(first).normalize();
+    }
+    return direction;
+  }
+
       const Stopwatch watch(result_.proof_seconds);
       // At first the worst deviations for an order's error are taken to be those of the next
       // degree, or of the last degree known.
@@ -319,9 +332,10 @@ std::vector<SelfCheck> checks_of_chief(const Scene& scene) {
 
 }  // namespace
 
-ValidityResult study_validity(const Scene& scene, const ProgressCallback& progress) {
-  require_deviation_problem(scene, scene.validity.has_value(), "validity");
-  require_one_spacecraft(scene, "validity");
+ValidityResult study_validity(const Scene& asked, const ProgressCallback& progress) {
+  require_deviation_problem(asked, asked.validity.has_value(), "validity");
+  require_one_spacecraft(asked, "validity");
+  const Scene scene = with_free_coordinates(asked);
   if (scene.coordinates != JetCoordinates::automatic) {
     ValidityResult result = ValidityStudy(scene, progress).run(scene.coordinates);
     result.checks = checks_of_chief(scene);
@@ -334,9 +348,10 @@ ValidityResult study_validity(const Scene& scene, const ProgressCallback& progre
   return result;
 }
 
-ValidityInCoordinates study_validity_in_all(const Scene& scene, const ProgressCallback& progress) {
-  require_deviation_problem(scene, scene.validity.has_value(), "validity");
-  require_one_spacecraft(scene, "validity");
+ValidityInCoordinates study_validity_in_all(const Scene& asked, const ProgressCallback& progress) {
+  require_deviation_problem(asked, asked.validity.has_value(), "validity");
+  require_one_spacecraft(asked, "validity");
+  const Scene scene = with_free_coordinates(asked);
   ValidityInCoordinates all;
   for (const JetCoordinates coordinates : measured_coordinates) {
     const bool is_of_orbits = coordinates != JetCoordinates::cartesian;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "hamjet/detail/maps/generating_function_kind.hpp"
+#include "hamjet/studies/scene.hpp"
+
+namespace hamjet {
+
+/// The number of coordinates along which deviations of a scene's system are told: one or two where
+/// the scene writes a Hamiltonian of so many, otherwise three.
+std::size_t told_coordinates(const SystemSettings& system);
+
+/// The scene with three coordinates: where it writes a Hamiltonian of one or two, others stand
+/// behind them that begin at rest and move freely, p^2 / 2 each, so that studies of three serve it.
+/// What the scene wrote, its `own_text`, stays.
+Scene with_free_coordinates(Scene scene);
+
+/// The kind as it is told, without the letters of coordinates that move freely: `q-p` of one.
+std::string told_kind(const GeneratingFunctionKind& kind, const SystemSettings& system);
+
+/// Whether a kind takes the coordinates, and not the momenta, of all that moves freely; other such
+/// kinds are told by the same letters.
+bool has_told_name(const GeneratingFunctionKind& kind, const SystemSettings& system);
+
+}  // namespace hamjet
