@@ -153,5 +153,20 @@ TEST(FewCoordinates, MistakesAreNamed) {
           {"validity.semi_axes: wrong length", "must be an array of 1 finite number"});
 }
 
+// A deputy about a chief that rests at the origin is as wrong as its own rounding: the linear flow
+// of oscillators in such units is a rotation.
+TEST(FewCoordinates, TheFloorAtAnOriginIsThatOfDeputies) {
+  const Scene scene = io::parse_scene(
+      own_scene("\"x\"", "\"p\"", "p^2/2 + x^2/2 + x^4", "coordinates = [0]\nmomenta = [0]",
+                "[validity]\ntolerance_m = 1e-3\ntimes_s = 2\n"),
+      "zero.toml");
+  const ValidityResult result = study_validity(scene);
+  const double furthest = result.points[0].entries.back().proved_m;
+  // Free coordinates of the studies make 2 (2 + t^2) of the square of the flow's norm.
+  const double norm = std::sqrt(2 + 2 * (2 + 4.0));
+  EXPECT_GT(furthest, 0);
+  EXPECT_NEAR(result.flight_floor_m, 0x1p-52 * norm * furthest, 1e-3 * result.flight_floor_m);
+}
+
 }  // namespace
 }  // namespace hamjet

@@ -3,17 +3,19 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "../../../dynamics/frozen_system.hpp"
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../checks/flight_checks.hpp"
+#include "../../exact_flow.hpp"
 #include "../../formation_scale.hpp"
 #include "../../stopwatch.hpp"
 #include "../charts/deputy_flows.hpp"
+#include "../charts/free_coordinates.hpp"
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
-#include "../charts/free_coordinates.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
 #include "limiting_coordinates.hpp"
@@ -35,6 +37,32 @@ Scene with_further_degrees(Scene scene) {
   scene.order = std::max(scene.order, std::min(scene.order + further, highest));
   return scene;
 }
+
+/// The rounding of deputies' flights over a time: that of the chief's, see rounding_of_flights, but
+/// for deputies that are further from their chief than the chief starts from the origin, as all are
+/// where it rests there.
+class DeputyRounding {
+ public:
+  DeputyRounding(const ComputedProblem& problem, double time, double furthest)
+      : of_chief_(rounding_of_flights(problem, time)),
+        start_(std::hypot(problem.nominal[0], problem.nominal[1], problem.nominal[2])) {
+    if (start_ >= furthest) return;
+    constexpr double tolerance = 1e-10;  // the tolerance of a scale, for which two digits would do
+    const FlowJet<double> flow =
+        linear_jet(problem.system, problem.nominal, problem.start_time, time, tolerance);
+    growth_ = in_momentum_unit<Matrix<double>>(linear_part(flow), problem.momentum_exponent).norm();
+  }
+
+  double at(double separation) const {
+    const double further = std::max(0.0, separation - start_);
+    return of_chief_ + std::numeric_limits<double>::epsilon() * growth_ * further;
+  }
+
+ private:
+  double of_chief_;
+  double start_;
+  double growth_ = 0;  ///< of deviations by the linear flow, where deputies may be that far
+};
 
 /// One study in progress.
 class ValidityStudy {
@@ -88,6 +116,17 @@ class ValidityStudy {
     samples_.push_back(-energy);
   }
 
+  /// The direction without coordinates that move freely, which the ellipsoid does not have.
+  Vector6 told(Vector6 direction) const {
+    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        if (settings_.semi_axes[static_cast<std::size_t>(i)] == 0) direction[first + i] = 0;
+      }
+      direction.segment<3>(first).normalize();
+    }
+    return direction;
+  }
+
   void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow) {
     ValidityPoint point;
     point.time = time_;
@@ -119,25 +158,15 @@ class ValidityStudy {
           std::min(next > 0 ? std::pow(tolerance_ / next, 1.0 / (order + 1)) : largest_separation_,
                    largest_separation_);
       entry.predicted_m = predicted * metres_;
-  /// The direction without coordinates that move freely, which the ellipsoid does not have.
-  Vector6 told(Vector6 direction) const {
-    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        if (settings_.semi_axes[static_cast<std::size_t>(i)] == 0) direction[first + i] = 0;
-      }
-      direction.segment<3>(first).normalize();
-    }
-    return direction;
-  }
-
       const Stopwatch watch(result_.proof_seconds);
       // At first the worst deviations for an order's error are taken to be those of the next
       // degree, or of the last degree known.
       flown_samples_ = worst_of_degrees[static_cast<std::size_t>(std::min(order + 1, known))];
       prove(deputies, predicted, entry);
       constexpr double clear = 30;  // multiple of the rounding that differences of misses need
-      if (!entry.is_at_limit && !entry.is_at_wall &&
-          entry.miss_m > clear * result_.flight_floor_m) {
+      const double floor_m = rounding.at(entry.proved_m / metres_) * metres_;
+      result_.flight_floor_m = std::max(result_.flight_floor_m, floor_m);
+      if (!entry.is_at_limit && !entry.is_at_wall && entry.miss_m > clear * floor_m) {
         entry.limit = reach_limit(deputies, order, entry.proved_m / metres_ * worst_.direction,
                                   result_.coordinates, names);
       }
