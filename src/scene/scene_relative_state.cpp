@@ -266,7 +266,7 @@ GivenForm form_of(const TableReader& table, const Nominal& nominal) {
 
 std::vector<SceneKey> axes_keys() {
   // A system of the scene's own may have fewer coordinates than three.
-  const ValueForm vector = form::words("array of 3 numbers", form::array(form::number()));
+  const ValueForm vector = form::words("array of 3 numbers", form::array(form::number(), 3));
   return {{"position_m", vector, absent::refused(),
            "relative to the chief, along the axes of the frame; below its distance from the "
            "centre; of a system of one or two coordinates as many numbers"},

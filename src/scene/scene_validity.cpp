@@ -28,7 +28,7 @@ const TableDescription& validity_table() {
   static const TableDescription table = {joined<SceneKey>(
       {{{"tolerance_m", form::positive(), absent::value(preset.tolerance_m), "the largest miss"}},
        transfer_time_keys(absent::other(fmt::format("`count = {}`", default_times))),
-       {{"semi_axes", form::words("array of 3 numbers above 0", form::array(form::positive())),
+       {{"semi_axes", form::words("array of 3 numbers above 0", form::array(form::positive(), 3)),
          absent::value(preset.semi_axes),
          "semi-axes of the ellipsoid of positions along the axes of the frame, as many as a system "
          "of the scene's own has coordinates; velocities fill the same one times the mean motion"},

@@ -59,6 +59,8 @@ void TableReader::read_declared(const SceneKey& key) const {
   using Type = ValueForm::Type;
   const ValueForm& form = key.form;
   const std::string_view name = key.name;
+  // Where words tell the form, its reader may take fewer numbers.
+  const bool has_count = form.count > 0 && form.words.empty();
   const auto least = [&] { return static_cast<std::int64_t>(form.least); };
   const auto most = [&] { return static_cast<std::int64_t>(form.most); };
   if (form.type == Type::boolean) {
@@ -73,9 +75,9 @@ void TableReader::read_declared(const SceneKey& key) const {
     integers(name, least(), most());
   } else if (form.type == Type::integer) {
     integer_between(name, least(), most());
-  } else if (form.is_array && form.count > 0 && form.is_positive) {
+  } else if (form.is_array && has_count && form.is_positive) {
     positive_numbers(name, form.count);
-  } else if (form.is_array && form.count > 0) {
+  } else if (form.is_array && has_count) {
     numbers(name, form.count);
   } else if (form.is_array) {
     numbers(name);
