@@ -3,19 +3,18 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "../../../dynamics/frozen_system.hpp"
 #include "../../../integrators/momentum_unit.hpp"
 #include "../../checks/flight_checks.hpp"
-#include "../../exact_flow.hpp"
 #include "../../formation_scale.hpp"
 #include "../../stopwatch.hpp"
 #include "../charts/deputy_flows.hpp"
 #include "../charts/free_coordinates.hpp"
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
+#include "deputy_rounding.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
 #include "limiting_coordinates.hpp"
@@ -37,32 +36,6 @@ Scene with_further_degrees(Scene scene) {
   scene.order = std::max(scene.order, std::min(scene.order + further, highest));
   return scene;
 }
-
-/// The rounding of deputies' flights over a time: that of the chief's, see rounding_of_flights, but
-/// for deputies that are further from their chief than the chief starts from the origin, as all are
-/// where it rests there.
-class DeputyRounding {
- public:
-  DeputyRounding(const ComputedProblem& problem, double time, double furthest)
-      : of_chief_(rounding_of_flights(problem, time)),
-        start_(std::hypot(problem.nominal[0], problem.nominal[1], problem.nominal[2])) {
-    if (start_ >= furthest) return;
-    constexpr double tolerance = 1e-10;  // the tolerance of a scale, for which two digits would do
-    const FlowJet<double> flow =
-        linear_jet(problem.system, problem.nominal, problem.start_time, time, tolerance);
-    growth_ = in_momentum_unit<Matrix<double>>(linear_part(flow), problem.momentum_exponent).norm();
-  }
-
-  double at(double separation) const {
-    const double further = std::max(0.0, separation - start_);
-    return of_chief_ + std::numeric_limits<double>::epsilon() * growth_ * further;
-  }
-
- private:
-  double of_chief_;
-  double start_;
-  double growth_ = 0;  ///< of deviations by the linear flow, where deputies may be that far
-};
 
 /// One study in progress.
 class ValidityStudy {
