@@ -12,6 +12,7 @@ void bind_pickling(pybind11::module_& module);
 void bind_jets(pybind11::module_& module);
 void bind_generating_functions(pybind11::module_& module);
 void bind_scenes(pybind11::module_& module);
+void bind_axes(pybind11::module_& module);
 void bind_elements(pybind11::module_& module);
 void bind_orbit_keys(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);

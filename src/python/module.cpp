@@ -13,6 +13,7 @@ PYBIND11_MODULE(_hamjet, module) {
   hamjet::python::bind_generating_functions(module);
   hamjet::python::bind_jets(module);
   hamjet::python::bind_scenes(module);
+  hamjet::python::bind_axes(module);
   hamjet::python::bind_elements(module);
   hamjet::python::bind_orbit_keys(module);
   hamjet::python::bind_runs(module);

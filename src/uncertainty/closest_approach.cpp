@@ -81,11 +81,14 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
     throw Error(ErrorKind::numerical,
                 "closest approach: the distance is flat there, so that its time is no series");
   }
-  const SharedSystem crossing = time_scaled_first_order(*problem.system);
+  const std::array<SharedSystem, 2> crossing = {time_scaled_first_order(*problem.system_of(0)),
+                                                time_scaled_first_order(*problem.system_of(1))};
   for (int degree = 1; degree <= problem.order; ++degree) {
     Series<double> step = product(relative(), 0, 3) / -slope;
     step[0] = 0;
-    for (auto& state : states) state = carried(crossing, state, step);
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      states[craft] = carried(crossing[craft], states[craft], step);
+    }
     approach.delay += step;
   }
   approach.state = relative();
@@ -97,7 +100,7 @@ ClosestApproach approach_at(const EncounterProblem& problem, const EncounterTraj
 
 std::vector<ClosestApproach> closest_approaches(const EncounterProblem& problem, std::size_t most) {
   validate(problem);
-  if (!problem.system->is_autonomous()) {
+  if (!problem.system_of(0)->is_autonomous() || !problem.system_of(1)->is_autonomous()) {
     throw Error(ErrorKind::usage,
                 "closest approach: the system depends on the time, must be one whose flow is the "
                 "same at every start");

@@ -58,6 +58,7 @@ UncertainSpacecraft narrowed(const UncertainSpacecraft& whole, const Row6& direc
   UncertainSpacecraft part;
   part.state.assign(moved.begin(), moved.end());
   part.straight.emplace(straight.chart(), moved);
+  part.own_system = whole.own_system;
   const Matrix6 of_coordinates =
       straight.slope() * whole.factor *
       (Matrix6::Identity() + (narrow - 1) * direction.transpose() * direction);

@@ -23,9 +23,9 @@ double small_circle_period(double distance) {
 }  // namespace
 
 WindowJets window_jets(const EncounterProblem& problem, std::size_t craft) {
-  FlowProblem<double> flow{problem.system,     SeriesSpace::create(6, problem.order),
-                           {0, 1, 2, 3, 4, 5}, problem.spacecraft[craft].state,
-                           problem.start_time, problem.from};
+  FlowProblem<double> flow{problem.system_of(craft), SeriesSpace::create(6, problem.order),
+                           {0, 1, 2, 3, 4, 5},       problem.spacecraft[craft].state,
+                           problem.start_time,       problem.from};
   if (const auto& straight = problem.spacecraft[craft].straight) {
     flow.initial_jet = straight->series(flow.space);
     for (std::size_t i = 0; i < 6; ++i) (*flow.initial_jet)[i][0] = flow.initial_state[i];
@@ -45,7 +45,7 @@ EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem)
 
 EncounterTrajectories::EncounterTrajectories(const EncounterProblem& problem,
                                              std::array<WindowJets, 2> jets)
-    : system_(problem.system), from_(problem.from), to_(problem.to), jets_(std::move(jets)) {
+    : from_(problem.from), to_(problem.to), jets_(std::move(jets)) {
   for (std::size_t craft = 0; craft < 2; ++craft) {
     starts_[craft] = problem.spacecraft[craft].state;
     factors_[craft] = problem.spacecraft[craft].factor;

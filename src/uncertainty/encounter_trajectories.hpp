@@ -57,7 +57,6 @@ class EncounterTrajectories {
  private:
   Eigen::Matrix<double, 6, 1> relative_mean(double time) const;
 
-  SharedSystem system_;
   std::array<std::vector<double>, 2> starts_;
   std::array<Eigen::Matrix<double, 6, 6>, 2> factors_;
   double from_;

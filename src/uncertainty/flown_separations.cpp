@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "../algebra/scalar_search.hpp"
-#include "../integrators/taylor_flow.hpp"
+#include "encounter_flows.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -27,16 +27,24 @@ struct Look {
 class Pairs {
  public:
   Pairs(const EncounterProblem& problem, std::span<const EncounterDeviation> deviations)
-      : problem_(&problem), flow_(problem.system), count_(deviations.size()) {
-    for (const EncounterDeviation& xi : deviations) {
-      for (std::size_t craft = 0; craft < 2; ++craft) {
+      : problem_(&problem),
+        flows_(problem),
+        count_(deviations.size()),
+        states_(12 * deviations.size()) {
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      std::vector<double> own;
+      for (const EncounterDeviation& xi : deviations) {
         const auto start =
             problem.spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
-        states_.insert(states_.end(), start.begin(), start.end());
+        own.insert(own.end(), start.begin(), start.end());
       }
-    }
-    if (problem.from != 0) {
-      flow_.advance(states_, problem.start_time, std::vector<double>(2 * count_, problem.from));
+      if (problem.from != 0) {
+        flows_.advance(craft, own, problem.start_time, std::vector<double>(count_, problem.from));
+      }
+      for (std::size_t pair = 0; pair < count_; ++pair) {
+        std::copy_n(own.begin() + static_cast<std::ptrdiff_t>(6 * pair), 6,
+                    state(2 * pair + craft).begin());
+      }
     }
   }
 
@@ -47,9 +55,9 @@ class Pairs {
       // Lanes without a state of their own repeat the first one, so that their numbers are finite.
       for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
         const std::size_t own = lane < 2 * count_ ? lane : 0;
-        flow_.set_state(lane, problem_->start_time + (problem_->to - left[own / 2]), state(own));
+        flows_.set_state(lane, problem_->start_time + (problem_->to - left[own / 2]), state(own));
       }
-      flow_.expand();
+      flows_.expand();
       for (std::size_t pair = 0; pair < count_; ++pair) {
         if (left[pair] > 0) left[pair] -= advance(pair, left[pair], least[pair]);
       }
@@ -63,8 +71,8 @@ class Pairs {
   Look look(std::size_t pair, double time) const {
     std::array<double, 6> first{};
     std::array<double, 6> second{};
-    flow_.evaluate(2 * pair, time, first);
-    flow_.evaluate(2 * pair + 1, time, second);
+    flows_.evaluate(0, 2 * pair, time, first);
+    flows_.evaluate(1, 2 * pair + 1, time, second);
     Look result;
     for (std::size_t i = 0; i < 3; ++i) {
       const double rho = second[i] - first[i];
@@ -76,9 +84,9 @@ class Pairs {
 
   /// Advances as far as the expansions of both spacecraft reach, and returns the time advanced.
   double advance(std::size_t pair, double left, double& least) {
-    const double step = std::min({flow_.reach(2 * pair), flow_.reach(2 * pair + 1), left});
+    const double step = std::min({flows_.reach(0, 2 * pair), flows_.reach(1, 2 * pair + 1), left});
     const bool is_long = step > least_part * (problem_->to - problem_->from);
-    if (!(is_long || flow_.ends_at_break(2 * pair, step))) {
+    if (!(is_long || flows_.ends_at_break(0, 2 * pair, step))) {
       throw Error(ErrorKind::numerical,
                   "encounter: a flight with a random deviation ended in the centre; the covariance "
                   "is too large for its orbit");
@@ -101,12 +109,14 @@ class Pairs {
       }
       before = after;
     }
-    for (const std::size_t lane : {2 * pair, 2 * pair + 1}) flow_.evaluate(lane, step, state(lane));
+    for (std::size_t craft = 0; craft < 2; ++craft) {
+      flows_.evaluate(craft, 2 * pair + craft, step, state(2 * pair + craft));
+    }
     return step == left ? left : step;
   }
 
   const EncounterProblem* problem_;
-  TaylorFlow flow_;
+  EncounterFlows flows_;
   std::size_t count_;
   std::vector<double> states_;  ///< for each pair both states, six numbers each
 };

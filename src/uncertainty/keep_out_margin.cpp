@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "../algebra/scalar_search.hpp"
-#include "../integrators/taylor_flow.hpp"
+#include "encounter_flows.hpp"
 #include "encounter_trajectories.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
@@ -118,35 +118,39 @@ class Ellipsoid {
   /// The least ratio of a flight with the full equations, looked at along its own expansions in
   /// time.
   double least_flown_ratio(const EncounterDeviation& xi) const {
-    TaylorFlow flow(problem_->system);
+    EncounterFlows flows(*problem_);
+    // The last is the mean of the first spacecraft, along whose axes the ellipsoid lies.
+    constexpr std::array<std::size_t, 3> craft_of = {0, 1, 0};
     std::vector<double> states;
-    for (std::size_t craft = 0; craft < 2; ++craft) {
-      const auto start =
-          problem_->spacecraft[craft].deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
-      states.insert(states.end(), start.begin(), start.end());
-    }
-    const std::vector<double>& mean = problem_->spacecraft[0].state;
-    states.insert(states.end(), mean.begin(), mean.end());
-    if (problem_->from != 0) {
-      flow.advance(states, problem_->start_time, std::vector<double>(3, problem_->from));
+    for (std::size_t lane = 0; lane < craft_of.size(); ++lane) {
+      const std::size_t craft = craft_of[lane];
+      const UncertainSpacecraft& flown = problem_->spacecraft[craft];
+      std::vector<double> state = flown.state;
+      if (lane < 2) {
+        const auto start = flown.deviated(xi.segment<6>(static_cast<Eigen::Index>(6 * craft)));
+        state.assign(start.begin(), start.end());
+      }
+      const std::array<double, 1> from = {problem_->from};
+      if (from[0] != 0) flows.advance(craft, state, problem_->start_time, from);
+      states.insert(states.end(), state.begin(), state.end());
     }
     double least = never;
     double left = problem_->to - problem_->from;
     while (left > 0) {
       for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
-        flow.set_state(lane, problem_->start_time + (problem_->to - left),
-                       std::span<const double>(states).subspan(6 * (lane % 3), 6));
+        flows.set_state(lane, problem_->start_time + (problem_->to - left),
+                        std::span<const double>(states).subspan(6 * (lane % 3), 6));
       }
-      flow.expand();
-      const double step = std::min({flow.reach(0), flow.reach(1), flow.reach(2), left});
+      flows.expand();
+      const double step = std::min({flows.reach(0, 0), flows.reach(1, 1), flows.reach(0, 2), left});
       const bool is_long = step > 1e-9 * (problem_->to - problem_->from);
-      if (!(is_long || flow.ends_at_break(0, step))) {
+      if (!(is_long || flows.ends_at_break(0, 0, step))) {
         throw Error(ErrorKind::numerical,
                     "keep-out: the flight with the told deviation ended in the centre");
       }
       const auto evaluate_at = [&](double time) {
         for (std::size_t lane = 0; lane < 3; ++lane) {
-          flow.evaluate(lane, time, std::span(states).subspan(6 * lane, 6));
+          flows.evaluate(craft_of[lane], lane, time, std::span(states).subspan(6 * lane, 6));
         }
       };
       const auto ratio_at = [&](double time) {

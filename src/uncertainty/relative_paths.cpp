@@ -48,8 +48,11 @@ std::array<double, 6> UncertainSpacecraft::deviated(const Eigen::Matrix<double, 
 }
 
 void validate(const EncounterProblem& problem) {
-  if (!problem.system || problem.system->dimension() != 6) {
-    throw Error(ErrorKind::usage, "encounter: the system must be one of an orbit");
+  for (std::size_t craft = 0; craft < 2; ++craft) {
+    const SharedSystem& system = problem.system_of(craft);
+    if (!system || system->dimension() != 6) {
+      throw Error(ErrorKind::usage, "encounter: the system must be one of an orbit");
+    }
   }
   bool finite =
       std::isfinite(problem.from) && std::isfinite(problem.to) && std::isfinite(problem.radius);

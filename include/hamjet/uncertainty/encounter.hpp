@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct UncertainSpacecraft {
   /// For a state that is Gaussian in the coordinates of a chart: the deviations to which linear
   /// ones belong, about `state`. Without, positions and velocities are Gaussian.
   std::optional<StraightDeviations> straight;
+  /// The equations of motion of this spacecraft, where its coefficients are others than those of
+  /// the encounter's system.
+  SharedSystem own_system;
 
   /// The state that belongs to the linear deviation L xi. Its numbers are not finite if the chart's
   /// coordinates belong to no state.
@@ -38,10 +42,16 @@ struct EncounterProblem {
   double radius = 0;     ///< the sum of the radii of both bodies: a smaller distance is a collision
   int order = 3;         ///< order of the polynomials in the linear deviations at the epoch
   GaussSettings settings = {};
+
+  const SharedSystem& system_of(std::size_t craft) const {
+    const SharedSystem& own = spacecraft[craft].own_system;
+    return own ? own : system;
+  }
+  bool has_one_system() const { return !spacecraft[0].own_system && !spacecraft[1].own_system; }
 };
 
-/// Throws Error(usage) unless the sizes fit, the window does not end before it begins, and the
-/// radius is positive, and Error(numerical) for numbers that are not finite.
+/// Throws Error(usage) unless the sizes and systems fit, the window does not end before it begins,
+/// and the radius is positive, and Error(numerical) for numbers that are not finite.
 void validate(const EncounterProblem& problem);
 
 }  // namespace hamjet

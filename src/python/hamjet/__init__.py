@@ -16,6 +16,7 @@ text that the command prints. Long work lets other threads run and ends within a
 """
 
 from ._hamjet import GeneratingFunction, Jet, Units, __version__
+from .axes import change_axes
 from .bounded import Bounded, Event, FrozenOrbit, Periodic, bounded, event, periodic, poincare
 from .collisions import Collisions, collision_probability, conjunctions
 from .elements import elements_of_states, mean_states, osculating_states, states_of_elements
@@ -39,7 +40,7 @@ __all__ = [
     "Polynomials", "RelativeStates", "Result", "Run", "SceneError", "Separation",
     "StudyResult", "System", "TooLargeError", "Trajectory", "Transfers", "Uncertainty",
     "Units", "UsageError", "Validity", "__version__", "assign", "bounded",
-    "collision_probability", "conjunctions", "elements_of_states", "event", "load", "mean_states", "motion",
+    "change_axes", "collision_probability", "conjunctions", "elements_of_states", "event", "load", "mean_states", "motion",
     "orbit", "osculating_states", "periodic", "poincare", "polynomial_moments", "polynomials",
     "propagate_many", "run", "states_of_elements", "system", "trajectory", "transfer",
     "uncertainty", "validity",

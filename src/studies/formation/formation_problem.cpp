@@ -83,8 +83,8 @@ void require_one_spacecraft(const Scene& scene, std::string_view table) {
   for (const Difference& difference : differences_of(scene)) {
     throw Error(ErrorKind::scene,
                 fmt::format("{}: is about spacecraft that are alike, got a deputy with {} = {:.6g} "
-                            "beside a chief with {:.6g}, must be the same; motion, transfer and "
-                            "assignment serve deputies that differ",
+                            "beside a chief with {:.6g}, must be the same; motion, transfer, "
+                            "assignment and uncertainty serve deputies that differ",
                             table, difference.parameter, difference.deputy, difference.chief));
   }
   require_states_alone(scene, table);

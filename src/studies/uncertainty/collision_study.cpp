@@ -33,12 +33,13 @@ constexpr long flown_separation_samples = 32;
 
 EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& watch,
                                    const MetricUnits& units) {
+  const EncounterSystems systems(scene);
   EncounterProblem problem =
-      empty_encounter(scene, watch.from, watch.to, watch.radius_m / units.length_m);
+      empty_encounter(scene, systems.chief, watch.from, watch.to, watch.radius_m / units.length_m);
   bool is_uncertain = false;
   for (const InitialState& start : initial_states(scene)) {
-    UncertainSpacecraft& craft = problem.spacecraft[start.name == "deputy" ? 1 : 0];
-    craft = uncertain_spacecraft(scene, start);
+    UncertainSpacecraft& craft = problem.spacecraft[start.is_chief() ? 0 : 1];
+    craft = uncertain_spacecraft(scene, systems, start);
     is_uncertain = is_uncertain || craft.factor.norm() > 0;
   }
   if (problem.spacecraft[0].state.empty()) problem.spacecraft[0].state = scene.nominal;
@@ -56,8 +57,8 @@ std::vector<SixNumbers<double>> flown_pairs(const EncounterProblem& problem,
                                             const std::vector<EncounterDeviation>& deviations,
                                             const std::vector<double>& times) {
   std::vector<SixNumbers<double>> result(deviations.size());
-  TaylorFlow flow(problem.system);
   for (std::size_t craft = 0; craft < 2; ++craft) {
+    TaylorFlow flow(problem.system_of(craft));
     std::vector<double> states;
     for (const EncounterDeviation& xi : deviations) {
       const auto start =
@@ -242,7 +243,7 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
   require_coasting(scene);
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->collision;
   require_formation_problem(scene, is_asked_for, "uncertainty.collision");
-  require_one_encounter(scene, "uncertainty.collision");
+  require_known_parameters(scene, "uncertainty.collision");
   CollisionResult result;
   const auto began = std::chrono::steady_clock::now();
   result.watch = *scene.uncertainty->collision;

@@ -7,6 +7,7 @@
 
 #include "../../uncertainty/track_axes.hpp"
 #include "../formation/charts/deputy_flows.hpp"
+#include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/uncertainty/polynomial_moments.hpp"
@@ -155,8 +156,13 @@ InitialState initial_deputy(const Scene& scene, const RelativeState& start) {
   return result;
 }
 
-EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius) {
-  EncounterProblem problem{make_system(scene), {}, scene.start_time};
+EncounterSystems::EncounterSystems(const Scene& scene) : chief(make_system(scene)) {
+  if (!is_like_chief(scene)) unlike_deputies = make_system(with_deputy_coefficients(scene));
+}
+
+EncounterProblem empty_encounter(const Scene& scene, const SharedSystem& chief, double from,
+                                 double to, double radius) {
+  EncounterProblem problem{chief, {}, scene.start_time};
   problem.from = from;
   problem.to = to;
   problem.radius = radius;
@@ -165,7 +171,8 @@ EncounterProblem empty_encounter(const Scene& scene, double from, double to, dou
   return problem;
 }
 
-UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start) {
+UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const EncounterSystems& systems,
+                                         const InitialState& start) {
   UncertainSpacecraft craft;
   craft.state = scene.nominal;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -177,6 +184,7 @@ UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState&
                                     : Cumulants(Vector<double>::Zero(6), start.covariance).axes();
   craft.factor.leftCols(factor.cols()) = factor;
   craft.straight = start.straight;
+  if (!start.is_chief()) craft.own_system = systems.unlike_deputies;
   return craft;
 }
 

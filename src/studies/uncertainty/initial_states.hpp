@@ -12,7 +12,7 @@ namespace hamjet {
 
 /// One spacecraft's distribution at the start.
 struct InitialState {
-  std::string name;
+  std::string name;     ///< "chief", "deputy", "deputy 2", ...
   Vector<double> mean;  ///< canonical deviation from the chief's nominal
   /// Covariance of linear canonical deviations from the mean and, behind them, of parameters from
   /// their nominal values.
@@ -25,6 +25,7 @@ struct InitialState {
   std::vector<std::string> parameters = {};
   Eigen::Index common = 0;  ///< number of parameters that all spacecraft share
 
+  bool is_chief() const { return name == "chief"; }
   /// The deviation from the chief's nominal that belongs to a linear one from the mean, with that
   /// of the parameters, if there are some.
   Vector<double> deviation(const Vector<double>& linear) const;
@@ -40,12 +41,23 @@ std::vector<InitialState> initial_states(const Scene& scene, double burn_share =
 /// that deputy, without a burn.
 InitialState initial_deputy(const Scene& scene, const RelativeState& start);
 
-/// An encounter in the scene's field and order, still without its spacecraft; the window and the
-/// radius are canonical. The jets of both spacecraft have a tolerance of their own, whatever
-/// integrates the scene's.
-EncounterProblem empty_encounter(const Scene& scene, double from, double to, double radius);
+/// The equations of motion of the chief, and those of deputies with other C_D A / m or C_R A / m,
+/// which are made once for all encounters of a scene.
+struct EncounterSystems {
+  explicit EncounterSystems(const Scene& scene);
+
+  SharedSystem chief;
+  SharedSystem unlike_deputies;  ///< none where deputies are like the chief
+};
+
+/// An encounter in the chief's field and at the scene's order, still without its spacecraft; the
+/// window and the radius are canonical. The jets of both spacecraft have a tolerance of their own,
+/// whatever integrates the scene's.
+EncounterProblem empty_encounter(const Scene& scene, const SharedSystem& chief, double from,
+                                 double to, double radius);
 
 /// The spacecraft of this start as one of the two of an encounter.
-UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const InitialState& start);
+UncertainSpacecraft uncertain_spacecraft(const Scene& scene, const EncounterSystems& systems,
+                                         const InitialState& start);
 
 }  // namespace hamjet

@@ -38,13 +38,14 @@ std::vector<InitialState> formation(const Scene& scene, double burn_share) {
   return all;
 }
 
-SafetyPair safety_of(const Scene& scene, const std::array<const InitialState*, 2>& states,
+SafetyPair safety_of(const Scene& scene, const EncounterSystems& systems,
+                     const std::array<const InitialState*, 2>& states,
                      const CollisionSettings& settings, const MetricUnits& units) {
   const SafetyWatch& watch = *scene.uncertainty->safety;
-  EncounterProblem problem =
-      empty_encounter(scene, watch.from, watch.to, watch.keep_apart_m / units.length_m);
+  EncounterProblem problem = empty_encounter(scene, systems.chief, watch.from, watch.to,
+                                             watch.keep_apart_m / units.length_m);
   for (std::size_t craft = 0; craft < 2; ++craft) {
-    problem.spacecraft[craft] = uncertain_spacecraft(scene, *states[craft]);
+    problem.spacecraft[craft] = uncertain_spacecraft(scene, systems, *states[craft]);
   }
   SafetyPair pair;
   pair.first = states[0]->name;
@@ -86,11 +87,12 @@ SafetyResult study_safety(const Scene& scene, std::size_t threads,
   require_coasting(scene);
   const bool is_asked_for = scene.uncertainty && scene.uncertainty->safety;
   require_formation_problem(scene, is_asked_for, "uncertainty.safety");
-  require_one_encounter(scene, "uncertainty.safety");
+  require_known_parameters(scene, "uncertainty.safety");
   SafetyResult result;
   {
     const Stopwatch watch(result.seconds);
     const MetricUnits units = metric_units(scene);
+    const EncounterSystems systems(scene);
     result.watch = *scene.uncertainty->safety;
     result.order = scene.order;
     result.from_s = result.watch.from * units.time_s;
@@ -111,7 +113,7 @@ SafetyResult study_safety(const Scene& scene, std::size_t threads,
         for (std::size_t j = i + 1; j < all.size(); ++j) {
           const bool burns = has_burn && (all[i].name == "deputy" || all[j].name == "deputy");
           if (!burns && !is_first) continue;
-          result.pairs.push_back(safety_of(scene, {&all[i], &all[j]}, settings, units));
+          result.pairs.push_back(safety_of(scene, systems, {&all[i], &all[j]}, settings, units));
           if (burns) result.pairs.back().burn_share = share;
         }
       }

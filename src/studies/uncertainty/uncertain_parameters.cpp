@@ -41,8 +41,8 @@ bool takes_own_flow(const Scene& scene, const InitialState& start) {
   return !start.parameters.empty() || (is_deputy(start) && !is_like_chief(scene));
 }
 
-void require_one_encounter(const Scene& scene, std::string_view table) {
-  require_one_spacecraft(scene, table);
+void require_known_parameters(const Scene& scene, std::string_view table) {
+  require_states_alone(scene, table);
   const UncertaintySettings& settings = *scene.uncertainty;
   const auto refuse = [&](const std::vector<UncertainParameter>& parameters) {
     if (parameters.empty()) return;

@@ -17,9 +17,9 @@ Scene scene_of_start(const Scene& scene, const InitialState& start);
 /// like its chief.
 bool takes_own_flow(const Scene& scene, const InitialState& start);
 
-/// Throws Error(scene) if a deputy is unlike its chief or a parameter is uncertain: paths of two
-/// spacecraft are polynomials of twelve numbers, of one kind of spacecraft.
-void require_one_encounter(const Scene& scene, std::string_view table);
+/// Throws Error(scene) if a parameter is uncertain or jets are expanded in one: paths of two
+/// spacecraft are polynomials of twelve numbers, those of their states.
+void require_known_parameters(const Scene& scene, std::string_view table);
 
 /// Throws Error(scene) if the scene asks for polynomials in other coordinates beside uncertain
 /// parameters or an unlike deputy.

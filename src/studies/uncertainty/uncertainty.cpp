@@ -225,8 +225,8 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
   // Before anything is computed that they would follow.
-  if (settings.collision) require_one_encounter(scene, "uncertainty.collision");
-  if (settings.safety) require_one_encounter(scene, "uncertainty.safety");
+  if (settings.collision) require_known_parameters(scene, "uncertainty.collision");
+  if (settings.safety) require_known_parameters(scene, "uncertainty.safety");
   UncertaintyResult result;
   result.scene = scene;
   const MetricUnits units = metric_units(scene);

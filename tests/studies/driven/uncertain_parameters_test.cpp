@@ -201,8 +201,6 @@ TEST(UncertainParameters, WhatMakesNoSenseIsRefused) {
   expect_says(refusal("parameters = {drag_m2_kg = 1e-3}\ncollision = {radius_m = 10}\n",
                       "[deputy]\nposition_m = [0, -300, 0]\n"),
               "is of states alone");
-  expect_says(refusal("position_m = [1, 1, 1]\ncollision = {radius_m = 10}\n", deputy),
-              "is about spacecraft that are alike");
   expect_says(refusal("parameters = {drag_m2_kg = 1e-3}\ncoordinates = [\"poincare\"]\n"),
               "must be left out");
 }
