@@ -27,7 +27,7 @@ EarthAxes axes_of_argument(const std::string& place, const std::string& name) {
   throw Error(ErrorKind::usage,
               fmt::format("{}: axes that are not known, got {}, must be one of: GCRF, EME2000, "
                           "MOD, TOD, TEME, CIRF, ITRF",
-                          place, in_quotes(name)));
+                          place, io::in_quotes(name)));
 }
 
 std::vector<Instant> instants_of(const std::vector<std::string>& epochs,
@@ -36,7 +36,7 @@ std::vector<Instant> instants_of(const std::vector<std::string>& epochs,
   if (!system) {
     throw Error(ErrorKind::usage,
                 fmt::format("time_system: not known, got {}, must be one of: {}",
-                            in_quotes(time_system), fmt::join(time_system_names(), ", ")));
+                            io::in_quotes(time_system), fmt::join(time_system_names(), ", ")));
   }
   std::vector<Instant> instants;
   for (std::size_t k = 0; k < epochs.size(); ++k) {
@@ -44,7 +44,7 @@ std::vector<Instant> instants_of(const std::vector<std::string>& epochs,
     if (!epoch) {
       throw Error(ErrorKind::usage, fmt::format("epochs: row {}: no date, got {}, must be like "
                                                 "\"2010-07-27T00:05:00\"",
-                                                k, in_quotes(epochs[k])));
+                                                k, io::in_quotes(epochs[k])));
     }
     try {
       instants.push_back(instant_of(*epoch, *system));
@@ -59,7 +59,7 @@ std::shared_ptr<const EarthOrientation> orientation_of(
     const std::optional<std::filesystem::path>& file) {
   if (!file) return nullptr;
   return std::make_shared<const EarthOrientation>(io::read_earth_orientation(
-      printable_path(*file), io::read_text_file(*file, io::largest_earth_orientation_bytes)));
+      io::printable_path(*file), io::read_text_file(*file, io::largest_earth_orientation_bytes)));
 }
 
 }  // namespace
