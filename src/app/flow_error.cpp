@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
 #include "../algebra/raise_to.hpp"
 #include "../charts/coordinate_units.hpp"
+#include "../integrators/independent_runs.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../studies/formation/charts/deputy_flows.hpp"
 #include "../studies/integration.hpp"
+#include "../studies/smooth_forces.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"
@@ -27,18 +28,18 @@ Matrix<double> linear_values(const DeputyFlow& flow) { return linear_part(flow.p
 std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
                                                     const ComputedProblem& problem,
                                                     const CoordinatesAtEnds& coordinates,
-                                                    int stages) {
-  GaussSettings settings;
-  settings.stages = stages;
-  settings.tolerance = 4 * std::numeric_limits<double>::epsilon();
-  settings.controls_all_degrees = true;
+                                                    std::size_t number) {
+  const GaussSettings settings =
+      gauss_of_independent_run<double>(number, has_smooth_forces(scene.system));
   const SixNumbers<double> start = six_numbers(problem.nominal);
   if (coordinates == JetCoordinates::flow_box && !problem.system->is_autonomous()) {
     ComputedProblem linear = problem;
     linear.space = SeriesSpace::create(problem.variables.size(), 1);
+    // The steps of these jets are tried on lines until they show rounding alone, also across seams.
+    const GaussSettings tried = gauss_of_independent_run<double>(number, true);
     IntegratorSettings precise;
-    precise.stages = stages;
-    precise.tolerance = settings.tolerance;
+    precise.stages = tried.stages;
+    precise.tolerance = tried.tolerance;
     JetPropagation jets(linear, precise);
     const FlowJet<double> jet = jets.advance_to(scene.duration);
     return driven_flow_box_deputy_flow(problem.system, problem.start_time + scene.duration,
@@ -88,8 +89,8 @@ FlowError FlowError::measured(const Scene& scene, const ComputedProblem& problem
   FlowError result;
   result.is_known_ = true;
   const Matrix<double> values = linear_values(flow);
-  for (const int stages : {16, 15}) {
-    const auto other = independent_linear_flow(scene, problem, coordinates, stages);
+  for (std::size_t number = 0; number < stages_of_runs.size(); ++number) {
+    const auto other = independent_linear_flow(scene, problem, coordinates, number);
     raise_to(result.of_chief_,
              error_estimate_safety * distance(other->chief_end(), flow.chief_end()));
     const Matrix<double> error = error_estimate_safety * (values - linear_values(*other));

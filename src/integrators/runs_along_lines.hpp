@@ -12,6 +12,7 @@
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
+#include "independent_runs.hpp"
 #include "jet_directions.hpp"
 #include "line_restriction.hpp"
 #include "lines_side_by_side.hpp"
@@ -22,8 +23,6 @@
 
 namespace hamjet {
 
-/// Numbers of stages of the runs along directions; different stages lead to different steps.
-inline constexpr std::array<int, 2> stages_of_runs = {16, 15};
 /// Numbers of directions of the two runs. An error of a high degree d is about (g.x)^d, where g is
 /// the deviation that the steps resolve worst, and shows along few directions. Over many steps two
 /// directions suffice to see it, over few steps they may not.
@@ -83,10 +82,8 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
 /// The Gauss settings of one of the runs, which integrates all of its directions at once.
 template <class Real>
 GaussSettings settings_of_run(std::size_t number, const ErrorEstimateSettings& settings) {
-  GaussSettings gauss;
-  gauss.stages = stages_of_runs[number];
-  gauss.tolerance = settings.tolerance.value_or(4 * rounding_unit<Real>());
-  gauss.controls_all_degrees = true;
+  GaussSettings gauss = gauss_of_independent_run<Real>(number, settings.has_smooth_forces);
+  if (settings.tolerance) gauss.tolerance = settings.tolerance;
   return gauss;
 }
 

@@ -21,6 +21,7 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
+#include "smooth_forces.hpp"
 #include "stability/stability_limit.hpp"
 #include "stopwatch.hpp"
 
@@ -96,13 +97,7 @@ ErrorEstimateSettings estimate_settings(const Scene& scene,
   settings.momentum_exponent =
       natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   settings.progress = progress;
-  // Densities are splines, at whose seams the last modes of a step decay too slowly for its error
-  // to be their square: at a perigee 150 km up lines of the usual tolerance are wrong by 1e-10.
-  constexpr double tolerance_in_air = 1e-24;
-  const bool has_air = scene.system.earth && scene.system.earth->atmosphere;
-  if (has_air && scene.precision == Precision::double_precision) {
-    settings.tolerance = tolerance_in_air;
-  }
+  settings.has_smooth_forces = has_smooth_forces(scene.system);
   return settings;
 }
 
@@ -157,6 +152,10 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
   try {
     using Lines = std::vector<JetAlongLine<Real>>;
     const auto* known = std::get_if<Lines>(&statistics.finer_lines);
+    // The steps of these are chosen by the nominal, which shows little of what air and light, much
+    // weaker than the field, do to deviations.
+    const auto& earth = scene.system.earth;
+    if (earth && (earth->atmosphere || earth->radiation)) known = nullptr;
     result.by_degree =
         estimate_error<Real>(flow, jet, estimate, known != nullptr ? *known : Lines{});
   } catch (const Error& error) {

@@ -14,8 +14,12 @@ inline constexpr double error_estimate_safety = 2;
 /// How the error of a jet is estimated.
 struct ErrorEstimateSettings {
   /// Tolerance of the independent runs, for every degree; the default is four times the rounding of
-  /// the numbers.
+  /// the numbers, and across seams of the forces 1e-22 at most.
   std::optional<double> tolerance = {};
+  /// Whether forces have all derivatives along the flow, but for times at which steps end. Where
+  /// they have seams, such as densities from a table, the runs have 9 and 7 stages, which are
+  /// closer to each other than those of 16 and 15.
+  bool has_smooth_forces = true;
   /// Largest number of steps of an independent run; Error(too_large) is thrown for more.
   long most_steps = 5000;
   /// Momenta are compared with positions, and directions are drawn, in units of two to this power.
