@@ -66,6 +66,11 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                     "no table [transfer], got none, must be there with frame and transfer times "
                     "that deputies and slots share");
   }
+  if (scene.transfer->thrust == TransferThrust::fuel_optimal) {
+    assignment.fail("",
+                    "transfer.thrust = \"fuel-optimal\", got it beside pairs, of which only one is "
+                    "followed to such a thrust, must be \"impulses\" or \"energy-optimal\"");
+  }
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
   assignment.read_if_any("keep_apart_m", settings.keep_apart_m);

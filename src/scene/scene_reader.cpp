@@ -147,6 +147,9 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
   read_table("thruster", [&](const auto& table) { scene.thruster = read_thruster(table, scene); });
+  root.attempt([&] {
+    if (scene.transfer) require_thruster(root.table("transfer"), scene, root.has("thruster"));
+  });
   for (std::string& warning : likely_slips_of_deputies(root, scene)) {
     scene.warnings.push_back(std::move(warning));
   }

@@ -209,7 +209,18 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
   transfer.read_if_any("feedback", settings.feedback);
-  if (settings.thrust != TransferThrust::energy_optimal) {
+  if (settings.thrust == TransferThrust::fuel_optimal) {
+    for (const std::string_view key : {"largest_thrust_m_s2", "feedback"}) {
+      if (!transfer.has(key)) continue;
+      transfer.fail(key, fmt::format("not used, got {} beside thrust = \"fuel-optimal\", whose "
+                                     "limit is the acceleration of [thruster], must be left out",
+                                     transfer.found(key)));
+    }
+    if (!has_ends) {
+      transfer.fail("thrust", "no start and end, must be there with thrust = \"fuel-optimal\"");
+    }
+  }
+  if (settings.thrust == TransferThrust::impulses) {
     for (const std::string_view key : {"thrust_order", "largest_thrust_m_s2", "feedback"}) {
       if (!transfer.has(key)) continue;
       transfer.fail(key, fmt::format("not used, got {} without a thrust that lasts, must be beside "
@@ -223,8 +234,7 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
   }
   if (settings.times.back() < 0) {
     transfer.fail("thrust",
-                  "transfer times before the start, must be after it with "
-                  "thrust = \"energy-optimal\"");
+                  "transfer times before the start, must be after it with a thrust that lasts");
   }
 }
 
@@ -256,9 +266,11 @@ const TableDescription& transfer_table() {
          "the same in periods of the nominal; without an orbit, in parts of the last time"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
          "optimal: also the least velocity change by any number of impulses at any times"},
-        {"thrust", form::choice({"impulses", "energy-optimal"}), absent::value("impulses"),
+        {"thrust", form::choice({"impulses", "energy-optimal", "fuel-optimal"}),
+         absent::value("impulses"),
          "energy-optimal: also the thrust that lasts, with the least integral of its squared "
-         "acceleration"},
+         "acceleration; fuel-optimal: from it that of `[thruster]` with the least integral of its "
+         "acceleration, full or none"},
         {"thrust_order", form::integer(1, 4), absent::value(preset.thrust_order),
          "order of that thrust's polynomials in states and costates"},
         {"largest_thrust_m_s2", form::positive(), absent::other("any"),

@@ -30,7 +30,7 @@ FlownSpan flown_span(const Scene& scene) {
   reach(scene.duration);
   for (const double time : scene.relative_hamiltonian_times) reach(time);
   if (scene.transfer) reach(last_arrival(*scene.transfer));
-  if (scene.transfer && scene.thruster) {
+  if (scene.transfer && scene.thruster && scene.transfer->thrust != TransferThrust::fuel_optimal) {
     // Half of a burn is before the first impulse, or after the last: no burn takes twice as long as
     // its transfer.
     reach(-scene.transfer->times.back());

@@ -9,6 +9,7 @@
 #include "../../src/report/formation/assignment_tables.hpp"
 #include "../../src/report/formation/burn_view.hpp"
 #include "../../src/report/formation/deputy_motion_report.hpp"
+#include "../../src/report/formation/fuel_view.hpp"
 #include "../../src/report/formation/thrust_view.hpp"
 #include "../../src/report/formation/transfer_tables.hpp"
 #include "../../src/report/formation/transfer_view.hpp"
@@ -111,6 +112,27 @@ inline TransferResult whole_transfer() {
     instant.thrust.back()[space->linear_index(3)] = x / 8;
   }
   result.thrust->feedback = {{instant}, 0.5, 0.25, 0.75, 9.75, ""};
+  FuelOptimalTransfer fuel;
+  fuel.time = 5;
+  fuel.burns = {{0.25, 0.75, 2.5, {0.6, 0, 0.8}, {0, 1, 0}}, {4, 5, 5, {0, 0, 1}, {0, -1, 0}}};
+  fuel.change_m_s = 7.5;
+  fuel.energy_optimal_m_s = 9.5;
+  fuel.impulses_m_s = 7.25;
+  fuel.impulses_bound_m_s = 7.125;
+  fuel.miss_m = 1e-6;
+  fuel.velocity_miss_m_s = 1e-9;
+  fuel.costates = {6, 5, 4, 3, 2, 1};
+  fuel.primer_at_switches = 1e-15;
+  fuel.primer_in_coasts = 0.875;
+  fuel.primer_in_burns = 1.125;
+  fuel.hamiltonian_change = 1e-13;
+  fuel.continuation_steps = 12;
+  fuel.flights = 40;
+  FuelOptimalTransfer no_fuel;
+  no_fuel.time = 6;
+  no_fuel.least_acceleration_m_s2 = 0.375;
+  no_fuel.failure = "not enough";
+  result.fuel = {0.3125, {fuel, no_fuel}, 0, {{0, {0, 0, 0}, 0.5}, {5, {0, 0, 0.25}, 1.5}}, ""};
   BurnPlan burns;
   burns.duration = 4;
   burns.impulses_m_s = 7;
@@ -286,6 +308,45 @@ inline std::vector<Walk> transfer_walks() {
             {"velocity_miss_m_s", {"m/s", 0.25}},
             {"energy_m2_s3", {"m^2/s^3", 0.75}},
             {"change_m_s", {"m/s", 9.75}}}},
+          {fuel_optimal_table(result),
+           report,
+           {0, 1},
+           {{"time_s", {"s", 5 * sample_unit_s, {6 * sample_unit_s}}},
+            {"change_m_s", {"m/s", 7.5, {nullptr}}},
+            {"energy_optimal_m_s", {"m/s", 9.5, {nullptr}}},
+            {"impulses_m_s", {"m/s", 7.25, {nullptr}}},
+            {"impulses_bound_m_s", {"m/s", 7.125, {nullptr}}},
+            {"burns", {"", 2, {nullptr}}},
+            {"burning_s", {"s", 1.5 * sample_unit_s, {nullptr}}},
+            {"miss_m", {"m", 1e-6, {nullptr}}},
+            {"velocity_miss_m_s", {"m/s", 1e-9, {nullptr}}},
+            {"primer_at_switches", {"", 1e-15, {nullptr}}},
+            {"primer_in_coasts", {"", 0.875, {nullptr}}},
+            {"primer_in_burns", {"", 1.125, {nullptr}}},
+            {"hamiltonian_change", {"", 1e-13, {nullptr}}},
+            {"costates", {"", {6, 5, 4, 3, 2, 1}, {nullptr}}},
+            {"continuation_steps", {"", 12, {0}}},
+            {"flights", {"", 40, {0}}},
+            {"least_acceleration_m_s2", {"m/s^2", nullptr, {0.375}}},
+            {"failure", {"", nullptr, {"not enough"}}},
+            {"acceleration_m_s2", {"m/s^2", 0.3125}},
+            {"shortest_transfer_time_s", {"s", 5 * sample_unit_s}}}},
+          {fuel_optimal_burns_table(result),
+           report,
+           {1},
+           {{"transfer_time_s", {"s", 5 * sample_unit_s}},
+            {"burn", {"", 2}},
+            {"start_s", {"s", 4 * sample_unit_s}},
+            {"end_s", {"s", 5 * sample_unit_s}},
+            {"change_m_s", {"m/s", 5}},
+            {"start_direction", {"", {0, 0, 1}}},
+            {"end_direction", {"", {0, -1, 0}}}}},
+          {primer_profile_table(result),
+           report,
+           {1},
+           {{"time_s", {"s", 5 * sample_unit_s}},
+            {"thrust_m_s2", {"m/s^2", {0, 0, 0.25}}},
+            {"primer", {"", 1.5}}}},
           {burns_table(result),
            report,
            {1, 2},

@@ -9,6 +9,7 @@
 #include "hamjet/detail/algebra/eigen.hpp"
 #include "hamjet/detail/studies/energy_optimal.hpp"
 #include "hamjet/detail/studies/finite_burns.hpp"
+#include "hamjet/detail/studies/fuel_optimal.hpp"
 #include "hamjet/detail/studies/impulse_plan.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/relative_drift.hpp"
@@ -110,6 +111,7 @@ struct TransferSeconds {
   double residual = 0;       ///< Hamilton-Jacobi residuals
   double impulses = 0;       ///< the primer vector and optimal impulses
   double thrust = 0;         ///< energy-optimal thrust
+  double fuel = 0;           ///< fuel-optimal thrust
   double burns = 0;          ///< burns in place of impulses
 
   /// Seconds for the answers, without their proof and residuals.
@@ -150,8 +152,9 @@ struct TransferResult {
   std::optional<CoastingTransfer> coasting;    ///< if the scene asks for a coasting start
   /// If the scene asks for other numbers of revolutions.
   std::optional<OtherRevolutions> revolutions;
-  std::optional<EnergyOptimalTransfers> thrust;  ///< if the scene asks for energy-optimal thrust
-  std::optional<FiniteBurns> burns;              ///< if the scene has a thruster
+  std::optional<EnergyOptimalTransfers> thrust;  ///< if the scene asks for a thrust that lasts
+  std::optional<FuelOptimalTransfers> fuel;      ///< if the scene asks for fuel-optimal thrust
+  std::optional<FiniteBurns> burns;  ///< if the scene has a thruster for other than such thrust
   std::optional<ValidityResult> validity;        ///< if the scene has `[validity]`
   TransferSeconds seconds;
   /// Checks of the chief's flight; transfers have marks of their own.

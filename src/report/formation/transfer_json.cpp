@@ -6,6 +6,7 @@
 #include "burn_view.hpp"
 #include "drift_view.hpp"
 #include "frame_columns.hpp"
+#include "fuel_view.hpp"
 #include "hamjet/version.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
@@ -19,11 +20,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json seconds_json(const TransferSeconds& seconds) {
-  return {{"propagation", seconds.propagation}, {"singularities", seconds.singularities},
-          {"inversion", seconds.inversion},     {"solution", seconds.solution},
-          {"study", seconds.study()},           {"proof", seconds.proof},
-          {"residual", seconds.residual},       {"impulses", seconds.impulses},
-          {"thrust", seconds.thrust},           {"burns", seconds.burns}};
+  return {{"propagation", seconds.propagation},
+          {"singularities", seconds.singularities},
+          {"inversion", seconds.inversion},
+          {"solution", seconds.solution},
+          {"study", seconds.study()},
+          {"proof", seconds.proof},
+          {"residual", seconds.residual},
+          {"impulses", seconds.impulses},
+          {"thrust", seconds.thrust},
+          {"fuel", seconds.fuel},
+          {"burns", seconds.burns}};
 }
 
 Json counts_json(const TransferCounts& counts) {
@@ -133,6 +140,7 @@ Json transfer_summary_json(const TransferResult& result) {
   if (result.thrust && result.thrust->feedback) {
     json["energy_optimal_thrust"]["feedback"] = table_json(feedback_table(result));
   }
+  json["fuel_optimal_thrust"] = fuel_optimal_json(result);
   json["finite_burns"] = result.burns ? table_json(burns_table(result)) : Json(nullptr);
   json["counts"] = counts_json(count_points(result));
   json["misses_away_from_singularities"] = misses_json(result);

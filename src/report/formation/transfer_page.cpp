@@ -8,6 +8,7 @@
 #include "../drawing/report_page.hpp"
 #include "burn_view.hpp"
 #include "frame_columns.hpp"
+#include "fuel_view.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
 #include "transfer_charts.hpp"
@@ -99,6 +100,11 @@ std::string thrust_sections(const TransferResult& result, ChartDrawer& drawer) {
   return thrust_section_html(result) + fitted_section(thrust_chart(result), drawer);
 }
 
+std::string fuel_sections(const TransferResult& result, ChartDrawer& drawer) {
+  if (!result.fuel || result.fuel->profile.empty()) return fuel_section_html(result);
+  return fuel_section_html(result) + fitted_section(fuel_chart(result), drawer);
+}
+
 std::string impulse_sections(const TransferResult& result, ChartDrawer& drawer) {
   if (!result.primer && !result.optimal) return "";
   return impulse_table_html(result) + fitted_section(primer_chart(result), drawer);
@@ -120,9 +126,10 @@ std::string transfer_page(const TransferResult& result,
                   "</section>\n" + trajectory_section(result, trajectory, drawer) +
                   impulse_sections(result, drawer) + waypoint_section_html(result) +
                   coasting_section_html(result) + revolutions_section_html(result) +
-                  thrust_sections(result, drawer) + burns_section_html(result) +
-                  fitted_section(miss_chart(result), drawer) + miss_table_html(result) +
-                  fitted_section(condition_chart(result), drawer) + singular_table_html(result);
+                  thrust_sections(result, drawer) + fuel_sections(result, drawer) +
+                  burns_section_html(result) + fitted_section(miss_chart(result), drawer) +
+                  miss_table_html(result) + fitted_section(condition_chart(result), drawer) +
+                  singular_table_html(result);
   if (result.validity) {
     page.sections += fitted_section(validity_time_chart(*result.validity), drawer) +
                      validity_sections_html(*result.validity, drawer);

@@ -183,6 +183,7 @@ std::string seconds_table_html(const TransferResult& result) {
   row("proof by flying, and refinement", seconds.proof);
   row("Hamilton-Jacobi residuals", seconds.residual);
   if (result.thrust) row("thrust of least energy, flown", seconds.thrust);
+  if (result.fuel) row("thrust of least fuel, flown", seconds.fuel);
   if (result.burns) row("burns in place of impulses, flown", seconds.burns);
   const std::string residual = hamilton_jacobi_text(result);
   return table_html("Wall-clock time on one core.",

@@ -10,6 +10,7 @@
 #include "../drawing/study_figure.hpp"
 #include "../study_checks.hpp"
 #include "burn_view.hpp"
+#include "fuel_view.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
@@ -68,7 +69,8 @@ std::string terminal_table(const TransferResult& result) {
   text += change_line(result, "least", result.best_point()) +
           change_line(result, "greatest", costliest_point(result));
   text += impulse_lines(result) + waypoint_lines(result) + coasting_lines(result) +
-          revolutions_lines(result) + thrust_lines(result) + burn_lines(result);
+          revolutions_lines(result) + thrust_lines(result) + fuel_lines(result) +
+          burn_lines(result);
   const std::vector<MissStatistics> misses = miss_statistics(result);
   if (!misses.empty()) {
     text += "  misses           away from singularities, the median and the largest:\n";
@@ -125,6 +127,11 @@ StudyReport transfer_report(const TransferResult& result,
   if (result.thrust && result.thrust->feedback) {
     report.files.push_back({"feedback.csv", table_csv(feedback_table(result))});
     report.files.push_back({"feedback.json", json_text(feedback_json(result)) + "\n"});
+  }
+  if (result.fuel) {
+    report.files.push_back({"fuel_optimal.csv", table_csv(fuel_optimal_table(result))});
+    report.files.push_back({"fuel_optimal_burns.csv", table_csv(fuel_optimal_burns_table(result))});
+    report.files.push_back({"primer_profile.csv", table_csv(primer_profile_table(result))});
   }
   if (result.burns) report.files.push_back({"burns.csv", table_csv(burns_table(result))});
   if (result.validity)

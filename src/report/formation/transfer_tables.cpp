@@ -10,6 +10,7 @@
 #include "../../studies/formation/charts/free_coordinates.hpp"
 #include "burn_view.hpp"
 #include "frame_columns.hpp"
+#include "fuel_view.hpp"
 #include "thrust_view.hpp"
 #include "transfer_view.hpp"
 
@@ -399,11 +400,21 @@ TableView total_by_time_table(const TransferResult& result) {
 }
 
 std::vector<TableView> transfer_tables(const TransferResult& result) {
-  return {
-      transfers_table(result),         singular_times_table(result),   conditions_table(result),
-      budget_windows_table(result),    optimal_impulses_table(result), least_by_time_table(result),
-      waypoint_impulses_table(result), total_by_time_table(result),    energy_optimal_table(result),
-      thrust_profile_table(result),    feedback_table(result),         burns_table(result)};
+  return {transfers_table(result),
+          singular_times_table(result),
+          conditions_table(result),
+          budget_windows_table(result),
+          optimal_impulses_table(result),
+          least_by_time_table(result),
+          waypoint_impulses_table(result),
+          total_by_time_table(result),
+          energy_optimal_table(result),
+          thrust_profile_table(result),
+          feedback_table(result),
+          fuel_optimal_table(result),
+          fuel_optimal_burns_table(result),
+          primer_profile_table(result),
+          burns_table(result)};
 }
 
 }  // namespace hamjet::io

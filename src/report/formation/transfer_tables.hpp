@@ -15,7 +15,8 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene);
 /// dimension are those of the whole result; `singular_times` with one a kind and time at which the
 /// kind does not exist; `conditions` of all kinds along time; `budget_windows`; `impulses` of the
 /// optimal plan and `least_by_time`, what these cost in other times; `waypoints`, impulses of the
-/// best way through them, and `total_by_time`; `energy_optimal` and `thrust_profile`, and `burns`.
+/// best way through them, and `total_by_time`; `energy_optimal` and `thrust_profile`;
+/// `fuel_optimal`, `fuel_optimal_burns` and `primer_profile`; and `burns`.
 std::vector<TableView> transfer_tables(const TransferResult& result);
 
 TableView transfers_table(const TransferResult& result);

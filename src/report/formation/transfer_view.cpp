@@ -8,6 +8,7 @@
 #include "../../text/html_text.hpp"
 #include "burn_view.hpp"
 #include "drift_view.hpp"
+#include "fuel_view.hpp"
 #include "hamjet/error.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
@@ -246,7 +247,8 @@ std::string transfer_verdict(const TransferResult& result) {
   std::string further;
   for (const std::string& one :
        {optimal_impulses_verdict(result), waypoint_verdict(result), coasting_verdict(result),
-        revolutions_verdict(result), thrust_verdict(result), burns_verdict(result)}) {
+        revolutions_verdict(result), thrust_verdict(result), fuel_verdict(result),
+        burns_verdict(result)}) {
     if (!one.empty()) further += " " + one;
   }
   if (!best) {
@@ -306,6 +308,9 @@ std::string transfer_failure(const TransferResult& result) {
   }
   if (const std::string failure = thrust_failure(result); !failure.empty()) {
     return "energy-optimal thrust: " + failure;
+  }
+  if (const std::string failure = fuel_failure(result); !failure.empty()) {
+    return "fuel-optimal thrust: " + failure;
   }
   if (const std::string failure = burns_failure(result); !failure.empty()) {
     return "burns: " + failure;

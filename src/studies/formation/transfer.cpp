@@ -24,6 +24,7 @@
 #include "other_revolutions.hpp"
 #include "single_transfer.hpp"
 #include "thrust/energy_optimal.hpp"
+#include "thrust/fuel_optimal.hpp"
 #include "transfer_points.hpp"
 #include "waypoint_plan.hpp"
 
@@ -156,11 +157,18 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.optimal =
         optimal_impulses(scene, points.problem(), points.linear_flow(), result, progress);
   }
-  if (settings.thrust == TransferThrust::energy_optimal) {
+  if (settings.thrust != TransferThrust::impulses) {
     const Stopwatch watch(result.seconds.thrust);
     result.thrust = energy_optimal_transfers(scene, problem, progress);
   }
-  if (scene.thruster) {
+  const bool is_fuel_optimal = settings.thrust == TransferThrust::fuel_optimal;
+  if (is_fuel_optimal) {
+    const Stopwatch watch(result.seconds.fuel);
+    result.fuel =
+        fuel_optimal_transfers(scene, points.problem(), points.linear_flow(), *result.thrust,
+                               progress);
+  }
+  if (scene.thruster && !is_fuel_optimal) {
     const Stopwatch watch(result.seconds.burns);
     result.burns = finite_burns(scene, problem, result, progress);
   }
@@ -185,12 +193,12 @@ int exit_code(const TransferResult& result) {
   }
   if (!has_answer) return static_cast<int>(ErrorKind::numerical);
   // If the limits forbid two impulses at the listed times, another kind of transfer may keep them.
-  const bool has_allowed = result.best_point() || (result.optimal && result.optimal->is_found()) ||
-                           (result.waypoints && result.waypoints->best_plan) ||
-                           (result.coasting && result.coasting->plan) ||
-                           (result.revolutions && result.revolutions->best) ||
-                           (result.thrust && result.thrust->least) ||
-                           (result.burns && result.burns->least);
+  const bool has_allowed =
+      result.best_point() || (result.optimal && result.optimal->is_found()) ||
+      (result.waypoints && result.waypoints->best_plan) ||
+      (result.coasting && result.coasting->plan) ||
+      (result.revolutions && result.revolutions->best) || (result.thrust && result.thrust->least) ||
+      (result.fuel && result.fuel->least) || (result.burns && result.burns->least);
   if (is_forbidden && !has_allowed) return static_cast<int>(ErrorKind::check_failed);
   if (result.optimal && (!result.optimal->is_found() || !result.optimal->is_proved())) {
     return static_cast<int>(ErrorKind::check_failed);
@@ -198,8 +206,9 @@ int exit_code(const TransferResult& result) {
   const bool lacks_way = result.waypoints && !result.waypoints->best_plan;
   const bool lacks_revolutions = result.revolutions && !result.revolutions->best;
   const bool lacks_thrust = result.thrust && !result.thrust->least;
+  const bool lacks_fuel = result.fuel && !result.fuel->least;
   const bool lacks_burns = result.burns && !result.burns->least;
-  if (lacks_way || lacks_revolutions || lacks_thrust || lacks_burns ||
+  if (lacks_way || lacks_revolutions || lacks_thrust || lacks_fuel || lacks_burns ||
       (result.coasting && !result.coasting->plan)) {
     return static_cast<int>(ErrorKind::check_failed);
   }

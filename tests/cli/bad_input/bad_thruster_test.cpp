@@ -60,5 +60,26 @@ TEST_F(BadThruster, EachIsOneLine) {
   expect_each_refused(thruster_scene, mistakes);
 }
 
+// What thrust of least fuel needs, and what it does not look at.
+TEST_F(BadThruster, OfLeastFuelIsOneLine) {
+  const string right = "thrust_N = 1\nmass_kg = 100\nspecific_impulse_s = 220\n";
+  const string fuel = "count = 1\nthrust = \"fuel-optimal\"";
+  string scene = thruster_scene;
+  scene.replace(scene.find("count = 1"), 9, fuel);
+  const std::vector<Mistake> mistakes = {
+      {"count = 1", "count = 1", {"20", "thrust_N", "mass that falls", "acceleration_m_s2"}},
+      {right,
+       "acceleration_m_s2 = 1\nattitude = \"RTN\"",
+       {"21", "attitude", "must be left out"}},
+      {right,
+       "acceleration_m_s2 = 1\nlongest_burn_s = 5",
+       {"21", "longest_burn_s", "must be left out"}},
+      {"[thruster]\n" + right, "", {"15", "thrust", "no table [thruster]"}},
+      {"thrust = \"fuel-optimal\"",
+       "thrust = \"fuel-optimal\"\nlargest_thrust_m_s2 = 1",
+       {"16", "largest_thrust_m_s2", "must be left out"}}};
+  expect_each_refused(scene, mistakes);
+}
+
 }  // namespace
 }  // namespace hamjet::test

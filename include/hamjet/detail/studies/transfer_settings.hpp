@@ -75,6 +75,7 @@ enum class TransferImpulses {
 enum class TransferThrust {
   impulses,        ///< impulses alone
   energy_optimal,  ///< in addition, a thrust that lasts, of least energy
+  fuel_optimal,    ///< and, followed from it, one of least fuel within the thruster's acceleration
 };
 
 /// Table `[transfer]`: from one relative state to another in given times.
