@@ -21,8 +21,8 @@ class FlowError {
   /// Nothing is known, and nothing counted.
   FlowError() = default;
 
-  /// What two independent integrations of the linear part show (gauss_of_independent_run). Throws as
-  /// the integrator and the coordinates.
+  /// What two independent integrations of the linear part show (gauss_of_independent_run). Throws
+  /// as the integrator and the coordinates.
   static FlowError measured(const Scene& scene, const ComputedProblem& problem,
                             const CoordinatesAtEnds& coordinates, const DeputyFlow& flow);
   /// What results state of their coefficients by degree, as a bound; nothing where they do not.

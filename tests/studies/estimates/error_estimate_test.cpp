@@ -56,8 +56,8 @@ TEST(ErrorEstimate, SeesWhatAFewStepsMissAtHighDegrees) {
   }
 }
 
-// Of the 14 short steps of this jet degree 2 is right to 8e-14. Lines of 16 stages pass the seams of
-// the density in five long steps and are wrong by 4e-12 there.
+// Of the 14 short steps of this jet degree 2 is right to 8e-14. Lines of 16 stages pass the seams
+// of the density in five long steps and are wrong by 4e-12 there.
 TEST(ErrorEstimate, IsOfTheSizeOfTheErrorAcrossSeamsOfTheAir) {
   const Scene scene = estimated_in_forces(2);
   const std::vector<JudgedDegree> degrees = judged_degrees(propagate(scene));
