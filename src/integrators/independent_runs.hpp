@@ -21,7 +21,7 @@ inline constexpr std::array<int, 2> stages_across_seams = {9, 7};
 /// whose estimate squares it: two digits above its rounding in double precision.
 template <class Real>
 GaussSettings gauss_of_independent_run(std::size_t number, bool has_smooth_forces) {
-  constexpr double tolerance = 4 * static_cast<double>(std::numeric_limits<Real>::epsilon());
+  const auto tolerance = 4 * static_cast<double>(std::numeric_limits<Real>::epsilon());
   constexpr double across_seams = 1e-22;
   GaussSettings settings;
   settings.stages = has_smooth_forces ? stages_of_runs[number] : stages_across_seams[number];

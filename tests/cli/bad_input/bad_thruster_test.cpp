@@ -74,10 +74,10 @@ TEST_F(BadThruster, OfLeastFuelIsOneLine) {
       {right,
        "acceleration_m_s2 = 1\nlongest_burn_s = 5",
        {"21", "longest_burn_s", "must be left out"}},
-      {"[thruster]\n" + right, "", {"15", "thrust", "no table [thruster]"}},
+      {"[thruster]\n" + right, "", {"16", "thrust", "no table [thruster]"}},
       {"thrust = \"fuel-optimal\"",
        "thrust = \"fuel-optimal\"\nlargest_thrust_m_s2 = 1",
-       {"16", "largest_thrust_m_s2", "must be left out"}}};
+       {"17", "largest_thrust_m_s2", "must be left out"}}};
   expect_each_refused(scene, mistakes);
 }
 
