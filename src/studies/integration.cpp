@@ -17,11 +17,11 @@
 #include "../integrators/symmetry/symmetry_reduction.hpp"
 #include "arcs.hpp"
 #include "checks/error_promise.hpp"
+#include "checks/smooth_forces.hpp"
 #include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
-#include "smooth_forces.hpp"
 #include "stability/stability_limit.hpp"
 #include "stopwatch.hpp"
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../../formats/relative_frame_text.hpp"
@@ -14,6 +17,16 @@ namespace hamjet::io {
 /// three.
 inline std::vector<double> along_told_axes(const Eigen::Vector3d& vector, std::size_t count) {
   return {vector.begin(), vector.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// The names of a vector's components along a frame's axes, as in "start_change_r_m_s".
+inline std::vector<std::string> axis_parts(const SystemSettings& system, RelativeFrame frame,
+                                           std::string_view before, std::string_view after) {
+  std::vector<std::string> names;
+  for (const std::string& axis : axis_columns(system, frame)) {
+    names.push_back(fmt::format("{}{}{}", before, axis, after));
+  }
+  return names;
 }
 
 /// Adds the frame that a result is told in, and the coordinates of its polynomials; `is_in_csv`

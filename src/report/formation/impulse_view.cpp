@@ -14,6 +14,7 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "impulse_tables.hpp"
 #include "transfer_json.hpp"
 #include "transfer_tables.hpp"
 #include "transfer_view.hpp"

@@ -12,6 +12,7 @@
 #include "burn_view.hpp"
 #include "fuel_view.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
+#include "impulse_tables.hpp"
 #include "impulse_view.hpp"
 #include "thrust_view.hpp"
 #include "transfer_charts.hpp"

@@ -23,14 +23,5 @@ TableView transfers_table(const TransferResult& result);
 TableView singular_times_table(const TransferResult& result);
 TableView conditions_table(const TransferResult& result);
 TableView budget_windows_table(const TransferResult& result);
-TableView optimal_impulses_table(const TransferResult& result);
-TableView least_by_time_table(const TransferResult& result);
-TableView waypoint_impulses_table(const TransferResult& result);
-TableView total_by_time_table(const TransferResult& result);
-
-/// The impulses of a plan, whose object in summary.json is at `place`.
-TableView impulses_table(const std::string& name, const std::string& place,
-                         const std::string& meaning, const Scene& scene,
-                         const std::vector<Impulse>& impulses);
 
 }  // namespace hamjet::io

@@ -10,6 +10,7 @@
 #include "../../store/json_values.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
+#include "impulse_tables.hpp"
 #include "impulse_view.hpp"
 #include "transfer_tables.hpp"
 #include "transfer_view.hpp"
