@@ -20,7 +20,7 @@ velocity_km_s = [0, 0.5, 0]
 order = 3
 duration_s = 64
 )";
-const std::string ends = R"([transfer]
+const std::string thrust_ends = R"([transfer]
 times_s = [16, 32]
 thrust = "energy-optimal"
 )";
@@ -34,17 +34,17 @@ position_m = [4, 5, 6]
 )";
 
 TEST(LastingThrust, OfATransferRefusesAnEllipsoidToStayOutOf) {
-  parse_scene(circle + ends + places, "file.toml");
-  expect_scene_error(circle + ends + "keep_out_m = [1, 1, 1]\n" + places,
+  parse_scene(circle + thrust_ends + places, "file.toml");
+  expect_scene_error(circle + thrust_ends + "keep_out_m = [1, 1, 1]\n" + places,
                      {"transfer.keep_out_m: not looked at on ways of a thrust that lasts",
                       "got an array", "beside thrust = \"impulses\""});
 }
 
 TEST(LastingThrust, OfAnAssignmentRefusesBudgetAndThruster) {
-  parse_scene(circle + ends + slots, "file.toml");
-  expect_scene_error(circle + ends + "budget_m_s = 2\n" + slots,
+  parse_scene(circle + thrust_ends + slots, "file.toml");
+  expect_scene_error(circle + thrust_ends + "budget_m_s = 2\n" + slots,
                      {"assignment: transfer.budget_m_s, got it beside a thrust that lasts"});
-  expect_scene_error(circle + ends + slots + "[thruster]\nacceleration_m_s2 = 0.01\n",
+  expect_scene_error(circle + thrust_ends + slots + "[thruster]\nacceleration_m_s2 = 0.01\n",
                      {"assignment: thruster: got the table [thruster] beside a thrust that lasts",
                       "largest_thrust_m_s2"});
 }

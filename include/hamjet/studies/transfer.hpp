@@ -155,7 +155,7 @@ struct TransferResult {
   std::optional<EnergyOptimalTransfers> thrust;  ///< if the scene asks for a thrust that lasts
   std::optional<FuelOptimalTransfers> fuel;      ///< if the scene asks for fuel-optimal thrust
   std::optional<FiniteBurns> burns;  ///< if the scene has a thruster for other than such thrust
-  std::optional<ValidityResult> validity;        ///< if the scene has `[validity]`
+  std::optional<ValidityResult> validity;  ///< if the scene has `[validity]`
   TransferSeconds seconds;
   /// Checks of the chief's flight; transfers have marks of their own.
   std::vector<SelfCheck> checks;

@@ -164,9 +164,8 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
   const bool is_fuel_optimal = settings.thrust == TransferThrust::fuel_optimal;
   if (is_fuel_optimal) {
     const Stopwatch watch(result.seconds.fuel);
-    result.fuel =
-        fuel_optimal_transfers(scene, points.problem(), points.linear_flow(), *result.thrust,
-                               progress);
+    result.fuel = fuel_optimal_transfers(scene, points.problem(), points.linear_flow(),
+                                         *result.thrust, progress);
   }
   if (scene.thruster && !is_fuel_optimal) {
     const Stopwatch watch(result.seconds.burns);
