@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "dynamics/fields/point_mass_field.hpp"
 #include "dynamics/fields/spherical_harmonic_field.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
@@ -13,8 +14,9 @@
 #include "support/line_of_flights.hpp"
 #include "support/turning_axes.hpp"
 
-// Several parameters at once as variables of a jet: mu, a zonal coefficient, C_D A / m, the density
-// and a thrust, against differences of flights whose forces are written here by hand.
+// Several parameters at once as variables of a jet: mu, a zonal coefficient, C_D A / m, the
+// density, C_R A / m and a thrust, against differences of flights whose forces are written here by
+// hand.
 
 namespace hamjet {
 namespace {
@@ -24,7 +26,9 @@ using test::Numbers;
 constexpr double tilt = 0.3, rate = 0.06;  // the tilt and the rate of the axes and of the air
 constexpr double J2 = 1.1e-3, J3 = -2e-5, radius = 0.95;
 constexpr double lowest_km = 100, density = 0.3, scale_height_km = 120;
-constexpr double mu_unit = 4;  // mu as a parameter is 4, in a unit of which one is 1/4
+constexpr std::array<double, 3> sun = {5, 2, 1}, sun_rate = {-0.02, 0.05, 0.01};
+constexpr double sunlight = 2;  // the acceleration by it at the distance 1
+constexpr double mu_unit = 4;   // mu as a parameter is 4, in a unit of which one is 1/4
 
 enum Parameter : std::size_t {
   drag,
@@ -34,6 +38,7 @@ enum Parameter : std::size_t {
   thrust_R,
   thrust_T,
   thrust_N,
+  light,
   count
 };
 
@@ -53,6 +58,11 @@ DynamicalSystem system_with_parameters() {
   body.scale = {1, mu};
   body.unit_of_scale = Extended(1) / mu_unit;
   body.parameters = count;
+  RadiationPressure pressure;
+  pressure.potential = std::make_shared<const PointMassField>(sunlight);
+  pressure.sun = std::make_shared<const test::MovingPoint>(sun, sun_rate);
+  pressure.coefficient = {0, light};
+  body.radiation = pressure;
   TurningAtmosphere air;
   air.least = test::exponential_air(lowest_km, density, scale_height_km);
   air.rate = rate;
@@ -72,8 +82,9 @@ Triple cross(const Triple& a, const Triple& b) {
 Extended inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The same forces by their formulas: J2 and J3 about the tilted axis as in Montenbruck and Gill,
-/// chapter 3, air that falls exponentially above a sphere, the thrust along R, T, N.
-Numbers rates(const Numbers& z, Extended) {
+/// chapter 3, air that falls exponentially above a sphere, light that falls as the square of the
+/// distance of a Sun that moves, the thrust along R, T, N.
+Numbers rates(const Numbers& z, Extended t) {
   const Triple q = {z[0], z[1], z[2]}, p = {z[3], z[4], z[5]};
   const Triple axis = {0, -sin(Extended(tilt)), cos(Extended(tilt))};
   const Extended r = sqrt(inner(q, q)), s = inner(q, axis) / r;
@@ -92,11 +103,15 @@ Numbers rates(const Numbers& z, Extended) {
   const Extended size = sqrt(inner(h, h));
   const Triple R = {q[0] / r, q[1] / r, q[2] / r}, N = {h[0] / size, h[1] / size, h[2] / size};
   const Triple T = cross(N, R);
+  Triple from_sun;
+  for (std::size_t i = 0; i < 3; ++i) from_sun[i] = q[i] - sun[i] - sun_rate[i] * t;
+  const Extended near = sqrt(inner(from_sun, from_sun));
+  const Extended push = z[6 + light] * sunlight / (near * near * near);
   Numbers result(z.size(), 0);
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = p[i];
     result[3 + i] =
-        by_r * R[i] + by_s * (axis[i] - s * R[i]) + braking * v[i] +
+        by_r * R[i] + by_s * (axis[i] - s * R[i]) + braking * v[i] + push * from_sun[i] +
         1e-2 * (z[6 + thrust_R] * R[i] + z[6 + thrust_T] * T[i] + z[6 + thrust_N] * N[i]);
   }
   return result;
@@ -109,6 +124,7 @@ TEST(ParameterFlow, DerivativesByAllParametersAreThoseOfFlights) {
   start[6 + factor] = 1;
   start[6 + mu] = mu_unit;
   start[6 + second_zonal] = J2;
+  start[6 + light] = 0.02;
   const double time = 2.5;
   const FlowJet<double> jet =
       test::run_gauss(test::Flow<double>{system_with_parameters(), start, time, 3});
@@ -122,7 +138,7 @@ TEST(ParameterFlow, DerivativesByAllParametersAreThoseOfFlights) {
         },
         h);
   };
-  constexpr double steps[count] = {0.03, 0.5, 0.3, 0.02, 3, 3, 3};
+  constexpr double steps[count] = {0.03, 0.5, 0.3, 0.02, 3, 3, 3, 0.5};
   for (std::size_t k = 0; k < count; ++k) {
     std::vector<double> direction(start.size(), 0);
     direction[6 + k] = steps[k];
