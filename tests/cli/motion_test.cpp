@@ -283,7 +283,7 @@ TEST_F(Coordinates, AreRefusedWhereTheyDoNotExist) {
   expect_error({"motion", "far.toml", "--set", "jet.coordinates=box"}, 3, {"jet.coordinates"});
   expect_error({"motion", "far.toml", "--set", "jet.coordinates=nodal", "--set",
                 "nominal.velocity_km_s=[0,7.5,0]"},
-               4, {"nodal coordinates", "equatorial"});
+               3, {"nodal coordinates", "equatorial"});
   write("verlet.toml", changed(far(""), "method = \"gauss\"\ntolerance = 1e-12",
                                "method = \"velocity-verlet\"\nstep_canonical = 0.01"));
   expect_error({"motion", "verlet.toml", "--set", "jet.coordinates=flow-box"}, 3,

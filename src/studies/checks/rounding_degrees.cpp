@@ -49,7 +49,7 @@ FieldDegrees degrees_of_field(const Scene& scene, const DynamicalSystem& system,
   const int exponent = natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal);
   const std::size_t n = system.degrees_of_freedom;
   const SpacePointer space = SeriesSpace::create(system.dimension(), scene.order);
-  const OperationList& list = system.evaluated_list();
+  const OperationList& list = system.vector_field;
   FieldSeries<double> rounded(list, space);
   FieldSeries<Extended> precise(list, space);
   const std::vector<double> none(static_cast<std::size_t>(scene.order) + 1, 0);
