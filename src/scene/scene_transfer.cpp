@@ -362,7 +362,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     settings.impulse_gap = nominal.scale.time_of_s(transfer.number("impulse_gap_s"));
   }
   if (transfer.has("keep_out_m")) {
-    if (settings.thrust == TransferThrust::energy_optimal) {
+    if (settings.thrust != TransferThrust::impulses) {
       transfer.fail("keep_out_m", fmt::format("not looked at on ways of a thrust that lasts, got "
                                               "{}, must be left out, or beside thrust = "
                                               "\"impulses\"",

@@ -173,6 +173,14 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
   while (times_.back() != duration) {
     step = std::min({2 * step, std::abs(duration) / per_revolution,
                      checkpoint_distance(states_.back(), times_.back(), per_revolution)});
+    if (!(step > std::numeric_limits<double>::epsilon() * std::abs(duration))) {
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("linear flow: the nominal changes without bound {:.6g} canonical units "
+                      "of time after its start; a collision or another singularity lies "
+                      "ahead",
+                      times_.back()));
+    }
     // Of what is left, steps of equal length are integrated together.
     const double left = std::abs(duration - times_.back());
     const bool is_end = left <= 1.01 * step * most_together;

@@ -29,7 +29,7 @@ keep_out_m = [100, 200, 100]
 samples = 100
 """
 
-#: By the name of the study's own table.
+#: By the name of the study's own table, the first word.
 STUDIES = {
     "validity": lambda: hamjet.validity(VALIDITY),
     "motion": lambda: hamjet.motion(CIRCLES),
@@ -38,6 +38,9 @@ STUDIES = {
         "transfer.feedback": 2,
         "transfer.budget_m_s": 20, "thruster": {"acceleration_m_s2": 0.1}, "transfer.waypoint": [
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
+    "transfers of full thrust": lambda: hamjet.transfer(TRANSFER, overrides={
+        "transfer.count": 1, "transfer.thrust": "fuel-optimal",
+        "thruster": {"acceleration_m_s2": 0.005}}),
     "assignment": lambda: hamjet.assign(
         SOURCE / "data" / "scenes" / "assignment-tetrahedron.toml", overrides=["transfer.count=3"]),
     "moments": lambda: hamjet.uncertainty(UNCERTAIN_PAIR),
@@ -87,9 +90,9 @@ def entries(json, dimensions, name):
 @pytest.fixture(scope="module", params=STUDIES)
 def studied(request, tmp_path_factory):
     study = STUDIES[request.param]()
-    directory = tmp_path_factory.mktemp(request.param)
+    directory = tmp_path_factory.mktemp(request.param.split()[0])
     study.write(directory)
-    return request.param, study, directory
+    return request.param.split()[0], study, directory
 
 
 def tables(own, study):

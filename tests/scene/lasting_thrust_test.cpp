@@ -38,6 +38,12 @@ TEST(LastingThrust, OfATransferRefusesAnEllipsoidToStayOutOf) {
   expect_scene_error(circle + thrust_ends + "keep_out_m = [1, 1, 1]\n" + places,
                      {"transfer.keep_out_m: not looked at on ways of a thrust that lasts",
                       "got an array", "beside thrust = \"impulses\""});
+  const std::string least_fuel =
+      "[transfer]\ntimes_s = [16, 32]\nthrust = \"fuel-optimal\"\n" + places;
+  const std::string thruster = "[thruster]\nacceleration_m_s2 = 1\n";
+  parse_scene(circle + least_fuel + thruster, "file.toml");
+  expect_scene_error(circle + least_fuel + "keep_out_m = [1, 1, 1]\n" + thruster,
+                     {"transfer.keep_out_m: not looked at on ways of a thrust that lasts"});
 }
 
 TEST(LastingThrust, OfAnAssignmentRefusesBudgetAndThruster) {

@@ -289,5 +289,13 @@ TEST(LinearFlow, ASpanThatIsTooLongIsRefusedAtOnce) {
   }
 }
 
+// From rest at the distance 1 the fall takes pi / sqrt(8).
+TEST(LinearFlow, EndsWhereTheChiefFallsIn) {
+  Scene scene = kepler_chief(0.3, 7000, 1000, 1);
+  scene.nominal = {1, 0, 0, 0, 0, 0};
+  const ComputedProblem problem = make_problem(scene);
+  test::expect_error(ErrorKind::numerical, "1.1107", [&] { LinearFlow(problem, 5, 240); });
+}
+
 }  // namespace
 }  // namespace hamjet

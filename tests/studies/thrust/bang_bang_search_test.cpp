@@ -64,6 +64,29 @@ TEST(BangBangSearch, TooWeakIsToldWithTheLeastThatIsNot) {
   EXPECT_LE(*thrust.lowest, 1.01);
 }
 
+TEST(BangBangSearch, ADeputyThatArrivesByCoastingNeedsNoThrust) {
+  const SwitchedFlight flight(system_of(1), ClockTime::epoch(), 2 * pi);
+  BangBangTask task;
+  task.start = task.end = {0.01, 0, 0, 0, 0.02, 0};  // a whole period
+  task.energy_costates = {0, 0, 0, 0, 0, 0};
+  task.most = 1;
+  task.tolerance = 1e-10;
+  const BangBangThrust thrust = bang_bang_thrust(flight, task);
+  EXPECT_EQ(thrust.failure, "");
+  ASSERT_EQ(thrust.flown.size(), 2U);
+  EXPECT_EQ(thrust.flown[0].phase, ThrustPhase::off);
+}
+
+// What is asked is a fifth of the miss that is allowed: it is gone all the same.
+TEST(BangBangSearch, AMissThatIsAllowedDoesNotSpareTheWay) {
+  const SwitchedFlight flight(system_of(0), ClockTime::epoch(), 2);
+  BangBangTask task = rest_to_rest(1.25);
+  task.tolerance = 5;
+  const BangBangThrust thrust = bang_bang_thrust(flight, task);
+  ASSERT_EQ(thrust.failure, "");
+  EXPECT_NEAR(thrust.flown[0].end, 1 - std::sqrt(1 - 1 / 1.25), 1e-5);
+}
+
 // Across the orbit of a circular chief a deputy oscillates (Clohessy and Wiltshire), and is brought
 // to rest there over a revolution by two burns about the passages of the plane, each of 2 a sin h
 // with half its length h, together the amplitude; impulses take the amplitude itself.

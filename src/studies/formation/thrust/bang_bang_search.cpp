@@ -15,6 +15,13 @@ namespace {
 /// The share of the smoothed thrust's cost that is quadratic while its limit moves: burns then
 /// appear and vanish smoothly.
 constexpr double moving_smoothing = 0.1;
+/// The flights of a search, counted in phases: a few thousand are usual.
+constexpr long most_phases_flown = 6000;
+/// The miss that an answer may have, in parts of that of the deputy that coasts. What it costs is
+/// then right to a few parts of this, whatever miss the task allows.
+constexpr double most_of_coasting_miss = 1e-6;
+/// A miss that is rounding, in canonical units.
+constexpr double rounded_miss = 1e-14;
 /// A burn of the length L stays smoothed until e is below some L^2: this is one of 0.05 s in a low
 /// orbit.
 constexpr double least_smoothing = 1e-10;
@@ -25,6 +32,12 @@ class BangBangSearch {
       : flight_(flight), task_(task) {}
 
   BangBangThrust run() {
+    std::optional<Point> coasting =
+        flown(std::vector<double>(SwitchedFlight::states, 0.0), {task_.most, 0});
+    if (!coasting) return failed("the deputy cannot be flown without thrust");
+    const double asked = coasting->miss.norm();
+    if (asked <= rounded_miss) return found(std::move(*coasting));
+    tolerance_ = std::min(task_.tolerance, std::max(rounded_miss, most_of_coasting_miss * asked));
     std::optional<Point> point = first();
     if (!point) return failed("the energy-optimal thrust is not found again");
     if (!follow(*point, {point->law.most, moving_smoothing}, 1e-3)) {
@@ -56,6 +69,7 @@ class BangBangSearch {
   };
 
   BangBangThrust failed(std::string reason) {
+    if (phases_ > most_phases_flown) reason += ", after so many flights that it was given up";
     result_.failure = std::move(reason);
     return std::move(result_);
   }
@@ -99,11 +113,15 @@ class BangBangSearch {
     Point point{law, costates, {}, State::Zero()};
     std::vector<double> start = task_.start;
     start.insert(start.end(), costates.begin(), costates.end());
+    if (phases_ > most_phases_flown) return std::nullopt;
     ++result_.flights;
     try {
       point.flown = flight_.fly(start, law);
+      phases_ += static_cast<long>(point.flown.size());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::numerical) throw;
+      constexpr long phases_of_failure = 50;
+      phases_ += phases_of_failure;
       return std::nullopt;
     }
     for (std::size_t i = 0; i < SwitchedFlight::states; ++i) {
@@ -113,7 +131,8 @@ class BangBangSearch {
   }
 
   std::optional<SwitchedFlight::Commanded> commanded(const Point& point,
-                                                     const SwitchedThrust& change) const {
+                                                     const SwitchedThrust& change) {
+    phases_ += static_cast<long>(point.flown.size());
     try {
       const auto matrix = flight_.commanded(point.flown, point.law, change);
       return matrix.allFinite() ? std::optional(matrix) : std::nullopt;
@@ -148,7 +167,7 @@ class BangBangSearch {
     constexpr int most_steps = 12;
     std::optional<Point> point = flown(guess, law);
     for (int k = 0; point && k < most_steps; ++k) {
-      if (point->miss.norm() <= task_.tolerance) return point;
+      if (point->miss.norm() <= tolerance_) return point;
       point = improved(*point);
     }
     return std::nullopt;
@@ -156,7 +175,7 @@ class BangBangSearch {
 
   /// Where the tangent leads when the law moves by `change`; the costates as they are where there
   /// is none, as at e = 1, at which the thrust changes its form.
-  std::vector<double> predicted(const Point& point, const SwitchedThrust& change) const {
+  std::vector<double> predicted(const Point& point, const SwitchedThrust& change) {
     if (point.law.smoothing == 1) return point.costates;
     const auto matrix = commanded(point, change);
     if (!matrix) return point.costates;
@@ -241,6 +260,8 @@ class BangBangSearch {
 
   const SwitchedFlight& flight_;
   const BangBangTask& task_;
+  double tolerance_ = 0;
+  long phases_ = 0;
   BangBangThrust result_;
 };
 

@@ -15,7 +15,7 @@ struct BangBangTask {
   std::vector<double> energy_costates;  ///< at the start, of the least integral of |u|^2 / 2
   double energy_largest = 0;            ///< the largest |u| of that thrust
   double most = 0;                      ///< the largest |u| that is allowed
-  double tolerance = 0;                 ///< of the end
+  double tolerance = 0;                 ///< of the end, and at most
 };
 
 /// The thrust of least fuel for it, or how far it was followed.
@@ -33,7 +33,8 @@ struct BangBangThrust {
 /// Follows the thrust of least energy, which is that of SwitchedThrust with e = 1 and a limit that
 /// it does not meet, to a small e, then to the task's limit, and then to e = 0, each time by
 /// Newton's method from where the tangent leads. Of e = 0 an answer is taken only if it does not
-/// take more fuel than the smoothed thrust that it comes from, which is allowed too.
+/// take more fuel than the smoothed thrust that it comes from, which is allowed too. A deputy that
+/// arrives by coasting needs none. A search that takes too many flights is given up.
 BangBangThrust bang_bang_thrust(const SwitchedFlight& flight, const BangBangTask& task);
 
 }  // namespace hamjet

@@ -36,7 +36,9 @@ class FuelOptimalStudy {
         flow_(flow),
         units_(metric_units(scene)),
         acceleration_(scene.thruster->acceleration_m_s2 * units_.time_s / units_.velocity_m_s()) {
-    // The bound is that of impulses of any size, anywhere.
+    // The bound is that of impulses of any size, anywhere, that do arrive.
+    unlimited_.transfer->refined_miss_m =
+        std::min(unlimited_.transfer->refined_miss_m, TransferSettings{}.refined_miss_m);
     unlimited_.transfer->largest_impulse_m_s.reset();
     unlimited_.transfer->keep_out_m.reset();
   }

@@ -21,9 +21,9 @@ namespace {
 constexpr std::size_t flown_states = SwitchedFlight::states;
 constexpr std::size_t most_phases = 400;
 
-/// Of the derivatives of Newton's method, which flights without them judge.
-/// Between the thresholds rounding of the primer vector is a share 1e-16 / e of the thrust, which
-/// no step makes smaller.
+/// The tolerance of the derivatives for Newton's method, whose steps are judged by flights without
+/// them. Between the thresholds rounding of the primer vector is a share 1e-16 / e of the thrust,
+/// which no step makes smaller.
 double tolerance_of_switched_commands(double smoothing) {
   return smoothing > 0 ? std::max(1e-10, 1e-13 / smoothing) : 1e-10;
 }

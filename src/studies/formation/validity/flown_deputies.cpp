@@ -77,6 +77,22 @@ Vector6 random_coordinates(std::mt19937_64& generator) {
   return coordinates;
 }
 
+std::vector<Vector6> far_apart(const std::vector<Vector6>& directions) {
+  // After whole revolutions the polynomials' own parts say little of what they neglect, and few
+  // starts leave a maximum out.
+  constexpr std::size_t most_starts = 16;
+  constexpr double apart = 0.3;
+  std::vector<Vector6> starts;
+  for (const Vector6& direction : directions) {
+    const bool is_near = std::any_of(starts.begin(), starts.end(), [&](const Vector6& start) {
+      return (start - direction).norm() < apart;
+    });
+    if (!is_near) starts.push_back(direction);
+    if (starts.size() == most_starts) break;
+  }
+  return starts;
+}
+
 Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const double> chief,
                             const Matrix6& axes) {
   DifferentiableFunction<double> field(system.vector_field);

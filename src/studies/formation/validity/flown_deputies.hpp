@@ -31,6 +31,9 @@ Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const doubl
 /// Random unit coordinates, of position and of velocity.
 Vector6 random_coordinates(std::mt19937_64& generator);
 
+/// The first of some directions that are far from each other, from which ascents may start.
+std::vector<Vector6> far_apart(const std::vector<Vector6>& directions);
+
 /// Deputies of one chief, flown to one time with the full equations, and their predictions by
 /// polynomials. A deputy is given by its coordinates along the columns of `axes`.
 class FlownDeputies {

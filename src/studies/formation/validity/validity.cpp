@@ -194,27 +194,10 @@ class ValidityStudy {
     deputies.sort_by_foretold_miss(flown_samples_, order, separation);
   }
 
-  /// The first of some directions that are far from each other.
-  static std::vector<Vector6> far_apart(const std::vector<Vector6>& directions) {
-    // After whole revolutions the polynomials' own parts say little of what they neglect, and few
-    // starts leave a maximum out.
-    constexpr std::size_t most_starts = 16;
-    constexpr double apart = 0.3;
-    std::vector<Vector6> starts;
-    for (const Vector6& direction : directions) {
-      const bool is_near = std::any_of(starts.begin(), starts.end(), [&](const Vector6& start) {
-        return (start - direction).norm() < apart;
-      });
-      if (!is_near) starts.push_back(direction);
-      if (starts.size() == most_starts) break;
-    }
-    return starts;
-  }
-
   /// The worst deputy at a separation that is found by flying all samples and by ascents of the
   /// flown miss from the worst of them. If the flow foretells the misses, ascents of the foretold
-  /// ones come first, and the flown ascent starts from the worst alone. Ends as soon as a deputy is
-  /// beyond the tolerance; the deputies that are found are added to the samples.
+  /// ones come first, and flown ascents start from the three worst alone. Ends as soon as a deputy
+  /// is beyond the tolerance; the deputies that are found are added to the samples.
   FlownDeputies::Worst worst_at(FlownDeputies& deputies, int order, double separation) {
     FlownDeputies::Worst worst;
     const auto ascend = [&](const FlownDeputies::Worst& start) {
@@ -226,7 +209,10 @@ class ValidityStudy {
     if (is_foretold) {
       foretell(deputies, order, separation);
       fly(deputies, order, separation, worst_samples);
-      ascend(misses_.front());
+      const std::vector<FlownDeputies::Worst> foretold = misses_;
+      for (const auto& start : std::span(foretold).first(std::min(most_ascents, foretold.size()))) {
+        ascend(start);
+      }
       if (worst.miss > tolerance_) return worst;
     }
     fly(deputies, order, separation, flown_samples_.size());
@@ -307,6 +293,8 @@ class ValidityStudy {
 
   /// The samples that trials fly once it is known which miss most.
   static constexpr std::size_t worst_samples = 6;
+  /// The flown ascents from deputies that were foretold to miss most.
+  static constexpr std::size_t most_ascents = 3;
   /// After a miss that exceeds the tolerance by this factor, no further samples are needed.
   static constexpr double hopeless = 1e3;
 
