@@ -324,7 +324,7 @@ std::vector<std::string> likely_slips_of_deputies(const TableReader& root, const
                            scene.units.length_km * 1000 / scene.units.time_s;
   const auto look = [&](const TableReader& table, const RelativeState& state) {
     const double speed_m_s = state.velocity_m_s.stableNorm();
-    if (speed_m_s >= chief_m_s / 20) {
+    if (speed_m_s > 0 && speed_m_s >= chief_m_s / 20) {
       warnings.push_back(fmt::format(
           "{}{}: fast beside its chief, got {:.4g} m/s, should be well below {:.4g} m/s, a "
           "twentieth of the chief's own speed: polynomials are right near the chief alone; a "
