@@ -10,6 +10,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/result_table.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/studies/scene.hpp"
 
 namespace hamjet::io {
 
@@ -19,11 +20,12 @@ inline std::vector<double> along_told_axes(const Eigen::Vector3d& vector, std::s
   return {vector.begin(), vector.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 
-/// The names of a vector's components along a frame's axes, as in "start_change_r_m_s".
-inline std::vector<std::string> axis_parts(const SystemSettings& system, RelativeFrame frame,
-                                           std::string_view before, std::string_view after) {
+/// The names of a vector's components along the axes of a transfer's frame, as in
+/// "start_change_r_m_s".
+inline std::vector<std::string> axis_parts(const Scene& scene, std::string_view before,
+                                           std::string_view after) {
   std::vector<std::string> names;
-  for (const std::string& axis : axis_columns(system, frame)) {
+  for (const std::string& axis : axis_columns(scene.system, scene.transfer->frame)) {
     names.push_back(fmt::format("{}{}{}", before, axis, after));
   }
   return names;

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "frame_columns.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -25,16 +25,6 @@ auto where_fuel_is_found(Value value) {
     using Held = std::remove_cvref_t<std::invoke_result_t<Value, Fuelled>>;
     return one.is_found() ? std::optional<Held>(std::invoke(value, one)) : std::nullopt;
   };
-}
-
-/// The names of a vector's components along the frame's axes, as in "start_direction_r".
-std::vector<std::string> direction_parts(const Scene& scene, std::string_view before,
-                                         std::string_view after) {
-  std::vector<std::string> parts;
-  for (const std::string_view axis : axis_columns(scene.transfer->frame)) {
-    parts.push_back(fmt::format("{}{}{}", before, axis, after));
-  }
-  return parts;
 }
 
 const FuelOptimalTransfer* least_fuel(const TransferResult& result) {
@@ -136,10 +126,10 @@ TableView fuel_optimal_burns_table(const TransferResult& result) {
             [=](const Row& row) { return row.burn->end * unit; });
   table.add("change_m_s", "m/s", "the integral of the acceleration",
             [](const Row& row) { return row.burn->change_m_s; });
-  table.add_array("start_direction", direction_parts(result.scene, "start_direction_", ""), "",
+  table.add_array("start_direction", axis_parts(result.scene, "start_direction_", ""), "",
                   "the unit vector of the thrust at its start, along the frame's axes then",
                   [](const Row& row) { return row.burn->start_direction; });
-  table.add_array("end_direction", direction_parts(result.scene, "end_direction_", ""), "",
+  table.add_array("end_direction", axis_parts(result.scene, "end_direction_", ""), "",
                   "the unit vector of the thrust at its end, along the frame's axes then",
                   [](const Row& row) { return row.burn->end_direction; });
   std::vector<Row> rows;
@@ -161,7 +151,7 @@ TableView primer_profile_table(const TransferResult& result) {
       "Thrust and primer vector along the way of the fuel-optimal transfer that takes the least.");
   table.add("time_s", "s", "since the start",
             [=](const PrimerSample& sample) { return sample.time * unit; });
-  table.add_array("thrust_m_s2", direction_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
+  table.add_array("thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
                   "the acceleration, along the frame's axes then", &PrimerSample::thrust_m_s2);
   table.add("primer", "", "the length of the primer vector", &PrimerSample::primer);
   const auto rows = result.fuel ? result.fuel->profile : std::vector<PrimerSample>();

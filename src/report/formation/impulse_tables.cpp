@@ -17,8 +17,8 @@ TableView impulses_table(const std::string& name, const std::string& place,
             [&](const Impulse& impulse) { return told_time(scene, impulse.time); });
   table.add("time_s", "s", "since the start",
             [=](const Impulse& impulse) { return impulse.time * unit; });
-  table.add_array("change_m_s", axis_parts(scene.system, scene.transfer->frame, "change_", "_m_s"),
-                  "m/s", "the velocity change, along the frame's axes at that time",
+  table.add_array("change_m_s", axis_parts(scene, "change_", "_m_s"), "m/s",
+                  "the velocity change, along the frame's axes at that time",
                   [count = told_coordinates(scene.system)](const Impulse& impulse) {
                     return along_told_axes(impulse.change_m_s, count);
                   });

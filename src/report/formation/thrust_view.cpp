@@ -11,6 +11,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "frame_columns.hpp"
 #include "impulse_view.hpp"
 #include "transfer_json.hpp"
 #include "transfer_view.hpp"
@@ -48,14 +49,10 @@ void add_by_thrust_order(ResultTable<EnergyOptimalTransfer>& table, int orders,
                   });
 }
 
-void add_thrust(ResultTable<EnergyOptimalTransfer>& table, RelativeFrame frame,
+void add_thrust(ResultTable<EnergyOptimalTransfer>& table, const Scene& scene,
                 const std::string& end, Eigen::Vector3d EnergyOptimalTransfer::*thrust) {
-  std::vector<std::string> parts;
-  for (const std::string_view axis : axis_columns(frame)) {
-    parts.push_back(fmt::format("{}_thrust_{}_m_s2", end, axis));
-  }
   table.add_array(
-      end + "_thrust_m_s2", std::move(parts), "m/s^2",
+      end + "_thrust_m_s2", axis_parts(scene, end + "_thrust_", "_m_s2"), "m/s^2",
       fmt::format("the acceleration at the {}, along the frame's axes at that time", end),
       where_found(thrust));
 }
@@ -70,7 +67,6 @@ const EnergyOptimalTransfer* least_thrust(const TransferResult& result) {
 TableView energy_optimal_table(const TransferResult& result) {
   const Scene& scene = result.scene;
   const double unit = scene.units.time_s;
-  const RelativeFrame frame = scene.transfer->frame;
   const int orders = result.thrust ? result.thrust->order : scene.transfer->thrust_order;
   ResultTable<EnergyOptimalTransfer> table(
       "energy_optimal", "/energy_optimal_thrust", {"times"},
@@ -92,8 +88,8 @@ TableView energy_optimal_table(const TransferResult& result) {
   table.add("exceeds_thrust", "",
             "whether the acceleration exceeds the scene's largest_thrust_m_s2 somewhere",
             &EnergyOptimalTransfer::exceeds_thrust);
-  add_thrust(table, frame, "start", &EnergyOptimalTransfer::start_thrust_m_s2);
-  add_thrust(table, frame, "end", &EnergyOptimalTransfer::end_thrust_m_s2);
+  add_thrust(table, scene, "start", &EnergyOptimalTransfer::start_thrust_m_s2);
+  add_thrust(table, scene, "end", &EnergyOptimalTransfer::end_thrust_m_s2);
   add_by_thrust_order(table, orders, "miss_m", "m",
                       "the distances from the wanted place at which flights with the thrust of the "
                       "orders 1 to N end",
@@ -125,18 +121,13 @@ TableView energy_optimal_table(const TransferResult& result) {
 }
 
 TableView thrust_profile_table(const TransferResult& result) {
-  const Scene& scene = result.scene;
-  const double unit = scene.units.time_s;
-  std::vector<std::string> parts;
-  for (const std::string_view axis : axis_columns(scene.transfer->frame)) {
-    parts.push_back(fmt::format("thrust_{}_m_s2", axis));
-  }
+  const double unit = result.scene.units.time_s;
   ResultTable<ThrustSample> table(
       "thrust_profile", "/energy_optimal_thrust", {"profile"},
       "The thrust of least energy along the way of the transfer that takes the least change.");
   table.add("time_s", "s", "since the start",
             [=](const ThrustSample& sample) { return sample.time * unit; });
-  table.add_array("thrust_m_s2", std::move(parts), "m/s^2",
+  table.add_array("thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
                   "the acceleration, along the frame's axes then", &ThrustSample::thrust_m_s2);
   table.add("magnitude_m_s2", "m/s^2", "its magnitude",
             [](const ThrustSample& sample) { return sample.thrust_m_s2.norm(); });
@@ -151,13 +142,9 @@ TableView feedback_table(const TransferResult& result) {
     std::size_t monomial;
   };
   const double unit = result.scene.units.time_s;
-  const auto letters = axis_columns(result.scene.transfer->frame);
-  std::vector<std::string> powers, parts;
-  for (const char* const before : {"power_", "power_v"}) {
-    for (const std::string_view axis : letters) powers.push_back(fmt::format("{}{}", before, axis));
-  }
-  for (const std::string_view axis : letters) {
-    parts.push_back(fmt::format("thrust_{}_m_s2", axis));
+  std::vector<std::string> powers = axis_parts(result.scene, "power_", "");
+  for (std::string& name : axis_parts(result.scene, "power_v", "")) {
+    powers.push_back(std::move(name));
   }
   ResultTable<Row> table("feedback", "/energy_optimal_thrust/feedback", {"instants", "monomials"},
                          "The thrust of least energy at equal parts of the way as polynomials of "
@@ -173,7 +160,7 @@ TableView feedback_table(const TransferResult& result) {
                         row.instant->thrust.front().space().exponents(row.monomial);
                     return std::vector<int>(exponents.begin(), exponents.end());
                   });
-  table.add_array("thrust_m_s2", parts, "m/s^2",
+  table.add_array("thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
                   "its coefficients in the acceleration along the frame's axes then, per m and m/s",
                   [](const Row& row) {
                     std::vector<double> values;

@@ -192,12 +192,10 @@ ResultTable<TransferPoint> transfer_columns(const Scene& scene) {
             [=](Point point) { return times(point.lowest, length_km); });
   table.add("below_surface", "", "whether that is less than the check of the surface allows",
             &TransferPoint::is_below_surface);
-  table.add_array("start_change_m_s",
-                  axis_parts(scene.system, scene.transfer->frame, "start_change_", "_m_s"), "m/s",
+  table.add_array("start_change_m_s", axis_parts(scene, "start_change_", "_m_s"), "m/s",
                   "the velocity change at the start, along the frame's axes",
                   told_change(&TransferAnswer::start_change_m_s));
-  table.add_array("end_change_m_s",
-                  axis_parts(scene.system, scene.transfer->frame, "end_change_", "_m_s"), "m/s",
+  table.add_array("end_change_m_s", axis_parts(scene, "end_change_", "_m_s"), "m/s",
                   "the velocity change at the end, along the frame's axes",
                   told_change(&TransferAnswer::end_change_m_s));
   table.add("total_change_m_s", "m/s", "the sum of the magnitudes of both velocity changes",

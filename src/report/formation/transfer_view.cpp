@@ -236,8 +236,8 @@ std::string budget_text(const TransferResult& result) {
                                 window.begins_before ? " (from the first time searched)" : "",
                                 window.ends_after ? " (to the last time searched)" : ""));
   }
-  return fmt::format(" {} or less suffices for two impulses in {} of time: {}.", velocity_text(*budget),
-                     counted(spans.size(), "span"), fmt::join(spans, "; "));
+  return fmt::format(" {} or less suffices for two impulses in {} of time: {}.",
+                     velocity_text(*budget), counted(spans.size(), "span"), fmt::join(spans, "; "));
 }
 
 }  // namespace
