@@ -7,6 +7,16 @@
 
 namespace hamjet {
 
+Expression costates_along_field(const DynamicalSystem& system, std::span<const Expression> z) {
+  const std::size_t states = system.dimension();
+  std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(states));
+  if (system.vector_field.has_time()) inputs.push_back(z.back());
+  const std::vector<Expression> field = recorded_outputs(system.vector_field, inputs);
+  Expression sum = 0;
+  for (std::size_t i = 0; i < states; ++i) sum += z[states + i] * field[i];
+  return sum;
+}
+
 DynamicalSystem costate_system(const DynamicalSystem& system) {
   if (system.parameters != 0) {
     throw Error(ErrorKind::usage, "costates: got a system with parameters, must be without");
@@ -17,11 +27,7 @@ DynamicalSystem costate_system(const DynamicalSystem& system) {
   OperationList hamiltonian = record(
       2 * states + (has_time ? 1 : 0),
       [&](std::span<const Expression> z) {
-        std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(states));
-        if (has_time) inputs.push_back(z.back());
-        const std::vector<Expression> field = recorded_outputs(system.vector_field, inputs);
-        Expression h = 0;
-        for (std::size_t i = 0; i < states; ++i) h += z[states + i] * field[i];
+        Expression h = costates_along_field(system, z);
         for (std::size_t i = n; i < states; ++i) h -= square(z[states + i]) / 2;
         return std::vector<Expression>{h};
       },

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <span>
+
 #include "hamjet/dynamics/dynamical_system.hpp"
 
 namespace hamjet {
+
+/// The sum lambda . f(x, t) of a system's vector field along its costates. The expressions begin
+/// with x and lambda, and end with the time if the field depends on it.
+Expression costates_along_field(const DynamicalSystem& system, std::span<const Expression> z);
 
 /// The Hamiltonian system of the states x = (q, p) of a system with n degrees of freedom, which are
 /// its 2n positions, and of their costates lambda, its 2n momenta, when a force u is added to p'

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "costate_system.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet {
@@ -18,11 +19,7 @@ DynamicalSystem thrusting_system(const DynamicalSystem& system, ThrustForm form)
   OperationList hamiltonian = record(
       2 * states + parameters + (has_time ? 1 : 0),
       [&](std::span<const Expression> z) {
-        std::vector<Expression> inputs(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(states));
-        if (has_time) inputs.push_back(z.back());
-        const std::vector<Expression> field = recorded_outputs(system.vector_field, inputs);
-        Expression h = 0;
-        for (std::size_t i = 0; i < states; ++i) h += z[states + i] * field[i];
+        Expression h = costates_along_field(system, z);
         Expression primer_squared = 0;
         for (std::size_t i = n; i < states; ++i) primer_squared += square(z[states + i]);
         h -= z[2 * states] * primer_squared / 2;
