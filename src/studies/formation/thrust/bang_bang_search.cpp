@@ -232,28 +232,20 @@ class BangBangSearch {
   /// The integral of |u|, by Simpson's rule in parts of each step.
   double fuel(const Point& point) const {
     constexpr int parts = 16;
-    double sum = 0, first = 0, last = 0;
-    int part = 0;
-    std::vector<double> shares;
     const double e = point.law.smoothing;
+    double sum = 0, first = 0;
+    std::vector<double> shares;  // of the step's parts so far
     flight_.visit(point.flown, point.law, parts, [&](const SwitchedFlight::Instant& instant) {
-      if (part == 0) {
-        first = instant.time;
-        shares.clear();
-      }
-      const double primer = primer_length(instant.state);
-      shares.push_back(instant.phase == ThrustPhase::off    ? 0
-                       : instant.phase == ThrustPhase::full ? 1
-                                                            : (primer - 1 + e) / (2 * e));
-      last = instant.time;
-      if (part++ < parts) return;
-      double weighted = 0;
-      for (int k = 0; k <= parts; ++k) {
-        const int weight = k == 0 || k == parts ? 1 : k % 2 == 1 ? 4 : 2;
-        weighted += weight * shares[static_cast<std::size_t>(k)];
-      }
-      sum += weighted * (last - first) / (3 * parts);
-      part = 0;
+      if (shares.empty()) first = instant.time;
+      shares.push_back(instant.phase == ThrustPhase::off ? 0
+                       : instant.phase == ThrustPhase::full
+                           ? 1
+                           : (primer_length(instant.state) - 1 + e) / (2 * e));
+      if (shares.size() <= parts) return;
+      double weighted = shares.front() + shares.back();
+      for (std::size_t k = 1; k < parts; ++k) weighted += (k % 2 == 1 ? 4 : 2) * shares[k];
+      sum += weighted * (instant.time - first) / (3 * parts);
+      shares.clear();
     });
     return sum * point.law.most;
   }

@@ -143,10 +143,11 @@ class PhaseFlight {
     state_ = std::move(next);
     now_ += length;
   }
-  /// The last step, to a time that rounding shall not miss.
-  void step_to(double time) {
-    step(time - now_);
-    now_ = time;
+  /// A step of a length, but no further than to a time, which rounding shall not miss.
+  void step(double length, double to) {
+    const bool is_last = length >= to - now_;
+    step(is_last ? to - now_ : length);
+    if (is_last) now_ = to;
   }
 
  private:
@@ -227,10 +228,8 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
       entered_from_below.reset();
       if (crossing) {
         flight.step(crossing->place * flight.unit());
-      } else if (step >= duration_ - flight.now()) {
-        flight.step_to(duration_);
       } else {
-        flight.step(step);
+        flight.step(step, duration_);
       }
     }
     span.end = flight.now();
@@ -296,11 +295,7 @@ void SwitchedFlight::visit(const std::vector<ThrustSpan>& flown, const SwitchedT
         flight.evaluate(after, state, &rates);
         visitor({flight.now() + after, span.phase, state, rates});
       }
-      if (step >= span.end - flight.now()) {
-        flight.step_to(span.end);
-      } else {
-        flight.step(step);
-      }
+      flight.step(step, span.end);
     }
   }
 }
@@ -314,14 +309,7 @@ std::vector<std::vector<double>> SwitchedFlight::at(const std::vector<ThrustSpan
     PhaseFlight flight(system_of(span.phase, law), span, law, start_time_);
     while (reached.size() < times.size() && times[reached.size()] < span.end) {
       const double time = times[reached.size()];
-      while (flight.now() < time) {
-        const double step = flight.expand(time);
-        if (step >= time - flight.now()) {
-          flight.step_to(time);
-        } else {
-          flight.step(step);
-        }
-      }
+      while (flight.now() < time) flight.step(flight.expand(time), time);
       reached.push_back(without_parameters(flight.state()));
     }
   }
