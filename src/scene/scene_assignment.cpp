@@ -85,7 +85,6 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                                     "it is not looked at, must be left out of [transfer]",
                                     key));
   };
-  refuse_beside_thrust("keep_out_m", scene.transfer->keep_out_m.has_value());
   refuse_beside_thrust("largest_impulse_m_s", scene.transfer->largest_impulse_m_s.has_value());
   refuse_beside_thrust("budget_m_s", scene.transfer->budget_m_s.has_value());
   if (scene.thruster && scene.transfer->thrust == TransferThrust::energy_optimal) {

@@ -118,6 +118,19 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal,
   return margin;
 }
 
+/// Two impulses and a listed time are what a system without an orbit has.
+void refuse_what_needs_orbit(const TableReader& transfer) {
+  for (const std::string_view key : {"impulses", "thrust", "keep_out_m", "revolutions",
+                                     "longest_coast_s", "waypoint", "singular_margin_orbits"}) {
+    const bool is_two = key == "impulses" && transfer.has(key) && transfer.choice(key) == 0;
+    if (!transfer.has(key) || is_two) continue;
+    transfer.fail(key,
+                  fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
+                              "coordinates of this system are transfers of two impulses",
+                              transfer.found(key)));
+  }
+}
+
 /// The ellipsoid that must stay free, in which neither end may lie.
 Eigen::Vector3d read_keep_out(const TableReader& transfer, const TransferSettings& settings,
                               bool has_ends) {
@@ -304,23 +317,6 @@ const TableDescription& transfer_table() {
          "a miss beyond the tolerance is exit code 1"}}})};
   return table;
 }
-
-namespace {
-
-/// Two impulses and a listed time are what a system without an orbit has.
-void refuse_what_needs_orbit(const TableReader& transfer) {
-  for (const std::string_view key : {"impulses", "thrust", "keep_out_m", "revolutions",
-                                     "longest_coast_s", "waypoint", "singular_margin_orbits"}) {
-    const bool is_two = key == "impulses" && transfer.has(key) && transfer.choice(key) == 0;
-    if (!transfer.has(key) || is_two) continue;
-    transfer.fail(key,
-                  fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
-                              "coordinates of this system are transfers of two impulses",
-                              transfer.found(key)));
-  }
-}
-
-}  // namespace
 
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends) {

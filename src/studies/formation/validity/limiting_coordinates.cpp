@@ -63,10 +63,6 @@ Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// The components of a deviation along the frame: of a system that the scene writes its coordinates
 /// and, with a v before the name, their rates.
 std::vector<std::string> told_components(RelativeFrame frame, const SystemSettings& system) {
