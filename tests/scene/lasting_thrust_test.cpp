@@ -9,17 +9,7 @@
 namespace hamjet::io {
 namespace {
 
-const std::string circle = R"(schema = 1
-[system]
-model = "kepler"
-mu_km3_s2 = 1
-[nominal]
-position_km = [4, 0, 0]
-velocity_km_s = [0, 0.5, 0]
-[jet]
-order = 3
-duration_s = 64
-)";
+const std::string circle = circle_scene;
 const std::string thrust_ends = R"([transfer]
 times_s = [16, 32]
 thrust = "energy-optimal"

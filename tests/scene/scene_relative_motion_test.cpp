@@ -12,25 +12,6 @@
 namespace hamjet::io {
 namespace {
 
-/// A circle with exact conversions: the units are 4 km, 8 s and 500 m/s, and a revolution
-/// takes 2 pi canonical.
-constexpr const char* circle_scene = R"(schema = 1
-title = "circle"
-[system]
-model = "kepler"
-mu_km3_s2 = 1
-[nominal]
-position_km = [4, 0, 0]
-velocity_km_s = [0, 0.5, 0]
-[jet]
-order = 3
-duration_s = 64
-[[integrator]]
-label = "a"
-method = "gauss"
-tolerance = 1e-12
-)";
-
 constexpr const char* transfer = R"([transfer]
 frame = "RTN"
 times_s = [16, 32]
