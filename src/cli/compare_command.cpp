@@ -76,7 +76,7 @@ int compare(const CompareOptions& options) {
   io::ReferenceCache cache(io::ReferenceCache::user_directory());
   auto saved = std::chrono::steady_clock::now();
   auto interval = first_checkpoint;
-  bool has_all_figures = false;
+  bool are_figures_written = false;
   io::ComparisonReport report;
   std::string summary;
   try {
@@ -103,28 +103,28 @@ int compare(const CompareOptions& options) {
       const UninterruptedWriting guard(Writing::checkpoint);
       write_figures(result, origin, output);
     }
-    has_all_figures = true;
+    are_figures_written = true;
     report = io::make_report(result, origin, options.plots);
     const UninterruptedWriting guard;
     summary = io::write_report(report, output);
   } catch (const Interrupted& interrupted) {
     if (result.runs.empty()) throw;
-    if (has_all_figures) {
-      return end_interrupted(
-          interrupted,
-          fmt::format("interrupted; all figures are in {}, without the report, which the same "
-                      "command with --resume makes",
-                      directory.string()));
-    }
-    {
+    if (!are_figures_written) {
       const UninterruptedWriting guard(Writing::partial_results);
       write_figures(result, origin, output);
     }
+    // The result, not the moment of the signal, says what the file has: a signal can come between
+    // the last figure and its writing.
+    const std::string place = directory.string();
     return end_interrupted(
         interrupted,
-        fmt::format("interrupted; what was finished is in {}, marked as partial; the same command "
-                    "with --resume goes on",
-                    directory.string()));
+        result.is_complete
+            ? fmt::format("interrupted; all figures are in {}, without the report, which the same "
+                          "command with --resume makes",
+                          place)
+            : fmt::format("interrupted; what was finished is in {}, marked as partial; the same "
+                          "command with --resume goes on",
+                          place));
   }
   if (report.drawing_problem) print_error(*report.drawing_problem);
   if (options.scene.json) {
