@@ -123,28 +123,49 @@ def taylor_coefficients(scene, units, u, order):
     flow = np.array(scene.field.transition(scene.chief, scene.duration))
     stretch = np.linalg.norm(np.asarray(flow * units[None] / units[:, None], dtype=float), 2)
     width = REAL(0.3 / max(1.0, stretch))
-    angles = np.pi * (np.arange(POINTS, dtype=REAL) + REAL(0.5)) / POINTS
-    nodes = np.cos(angles)
-    cosines = np.cos(np.outer(np.arange(POINTS), angles))
     while True:
-        starts = scene.chief + np.outer(width * nodes, u[:6] * units)
-        try:
-            if scene.parameters:
-                ends = np.array([scene.with_change(dict(zip(scene.parameters, x * u[6:]))).to(
-                    start, scene.duration) for x, start in zip(width * nodes, starts)]) / units
-            else:
-                ends = scene.field.to(starts, scene.duration) / units
-        except FlightFailed:  # of a start too far from the chief
+        series = chebyshev_series(scene, units, u, width)
+        if series is None:  # a start too far from the chief
             width /= REAL(4)
             continue
-        series = 2 * cosines @ ends / POINTS  # [k, 6]
-        series[0] /= 2
         sizes = orbit.norm(series)
         noise = np.max(sizes[-4:])
         # The series goes down to what the flights' own rounding leaves.
         if noise > 0.2 * np.max(sizes[-8:-4]) or noise < REAL(2) ** -60 * sizes[0]:
             break
         width /= REAL(1.5)
+    true, uncertainty = from_chebyshev(series, width, order)
+    if scene.is_earth and scene.field.air:
+        # Flights to one side may enter a piece of the density that the chief does not see, so that
+        # the series is another one for other widths.
+        narrower = width / REAL(1.5)
+        other, _ = from_chebyshev(chebyshev_series(scene, units, u, narrower), narrower, order)
+        uncertainty += orbit.norm(true - other)
+    return true, uncertainty
+
+
+def chebyshev_series(scene, units, u, width):
+    """[k, 6] of the end as a function of h / width; None where a flight fails."""
+    angles = np.pi * (np.arange(POINTS, dtype=REAL) + REAL(0.5)) / POINTS
+    nodes = np.cos(angles)
+    starts = scene.chief + np.outer(width * nodes, u[:6] * units)
+    try:
+        if scene.parameters:
+            ends = np.array([scene.with_change(dict(zip(scene.parameters, x * u[6:]))).to(
+                start, scene.duration) for x, start in zip(width * nodes, starts)]) / units
+        else:
+            ends = scene.field.to(starts, scene.duration) / units
+    except FlightFailed:
+        return None
+    series = 2 * np.cos(np.outer(np.arange(POINTS), angles)) @ ends / POINTS
+    series[0] /= 2
+    return series
+
+
+def from_chebyshev(series, width, order):
+    """[degree, 6] of Taylor's series in h, and how uncertain they are."""
+    sizes = orbit.norm(series)
+    noise = np.max(sizes[-4:])
     kept = max(order, int(np.max(np.nonzero(sizes > 4 * noise)[0], initial=order)))
     polynomials = np.array([np.pad(np.polynomial.chebyshev.cheb2poly([0] * k + [1]),
                                    (0, kept - k)) for k in range(kept + 1)], dtype=REAL)
@@ -156,4 +177,4 @@ def taylor_coefficients(scene, units, u, order):
         scale = width ** d
         true.append(polynomials[:, d] @ series[:kept + 1] / scale)
         uncertainty.append(np.sum(np.abs(polynomials[:, d]) * below) / scale)
-    return np.array(true), uncertainty
+    return np.array(true), np.array(uncertainty)
