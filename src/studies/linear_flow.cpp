@@ -10,6 +10,7 @@
 #include "../algebra/matrix_eigenvalues.hpp"
 #include "../dynamics/frozen_system.hpp"
 #include "../integrators/momentum_unit.hpp"
+#include "../integrators/step_ends.hpp"
 #include "exact_flow.hpp"
 #include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/dynamics/relative_hamiltonian.hpp"
@@ -38,10 +39,17 @@ LinearArc arc_of(const ComputedProblem& problem, double time, const FlowJet<doub
           in_momentum_unit<StateTransition>(linear_part(jet), problem.momentum_exponent)};
 }
 
+/// Whether there is a time within a flow at which the forces have no derivatives.
+bool passes_break(const DynamicalSystem& system, const ClockTime& start_time, double duration) {
+  return StepEnds<double>(system, start_time, duration).after(0) != duration;
+}
+
 /// The flow after each of a number of equal steps, of which each is one of the integration; empty
-/// where such a step is too long for the local error.
+/// where such a step is too long for the local error, or passes a time at which the forces have no
+/// derivatives: neither do equal steps end there, nor does the estimate of the error see it.
 std::vector<LinearArc> arcs_of_steps(const ComputedProblem& problem,
                                      const FlowProblem<double>& flow, std::size_t count) {
+  if (passes_break(*flow.system, flow.start_time, flow.duration)) return {};
   IntegrationStatistics statistics;
   GaussSettings steps;
   steps.step = std::abs(flow.duration) / static_cast<double>(count);
@@ -219,6 +227,9 @@ LinearFlow::LinearFlow(const ComputedProblem& problem, double duration, double p
 void LinearFlow::find_interpolated() {
   is_interpolated_.assign(times_.size(), false);
   for (std::size_t before = most_nodes / 2 - 1; before + most_nodes / 2 < times_.size(); ++before) {
+    const double first = times_[before + 1 - most_nodes / 2];
+    const double last = times_[before + most_nodes / 2];
+    if (passes_break(*problem_->system, problem_->start_time + first, last - first)) continue;
     const double middle = 0.5 * (times_[before] + times_[before + 1]);
     const Interpolation all(times_, before, most_nodes, middle);
     const Interpolation fewer(times_, before, most_nodes - 2, middle);

@@ -11,6 +11,7 @@
 
 #include "astronomy/sunlight.hpp"
 #include "hamjet/detail/dynamics/differentiable_function.hpp"
+#include "hamjet/detail/studies/singular_times.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -317,6 +318,25 @@ TEST(RadiationStudies, BackwardsThereIsTheSameLight) {
     EXPECT_NEAR(one, other, 1e-9) << t;
   }
   EXPECT_GT(apart(end, there.nominal), 1e-3);
+}
+
+// Equal steps of a linear flow would pass over the edges, whose error their estimate does not see.
+// A flight in one, whose steps end at the edges, has the same states; each checkpoint may add
+// 1e-14.
+TEST(RadiationStudies, LinearFlowsEndTheirStepsAtTheEdges) {
+  const Scene scene = scene_of({});
+  const ComputedProblem problem = make_problem(scene);
+  for (const double per_revolution : {48.0, 240.0}) {
+    const LinearFlow flow(problem, scene.duration, per_revolution);
+    const double allowed = 1e-14 * static_cast<double>(flow.times().size());
+    for (int k = 1; k <= 50; ++k) {
+      const double time = scene.duration * k / 50;
+      EXPECT_LT(apart(flow.nominal(time),
+                      exact_flow(problem.system, problem.nominal, problem.start_time, time)),
+                allowed)
+          << per_revolution << ": " << time;
+    }
+  }
 }
 
 TEST(RadiationStudies, NoShadowNoEdges) {
