@@ -54,6 +54,31 @@ void set_chief_end(EvaluatedScene& scene, std::vector<double> end) {
   }
 }
 
+namespace {
+
+/// Integrates the flow in the coordinates of the result, and what it is wrong by.
+void integrate_flow(const Scene& scene, const ComputedProblem& problem, EvaluatedScene& result) {
+  const IntegratorSettings& integrator = symplectic_integrator(scene);
+  const Stopwatch watch(result.seconds);
+  DeputyFlowPropagation propagation(scene, problem, integrator, result.coordinates);
+  result.flow = propagation.advance_to(scene.duration);
+  try {
+    result.error = FlowError::measured(scene, problem, propagation.coordinates(), *result.flow);
+  } catch (const Error& error) {
+    // The flow is there all the same; nothing is known of its errors then, which is said.
+    if (error.kind() != ErrorKind::numerical) throw;
+  }
+  if (scene.order == 2 && result.coordinates != JetCoordinates::cartesian) {
+    result.further = flow_of_third_degree(scene, integrator, propagation.coordinates());
+  }
+  if (const auto& box = propagation.flow_box()) {
+    result.chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
+    result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
+  }
+}
+
+}  // namespace
+
 EvaluatedScene evaluated_scene(const Scene& asked) {
   require_formation_problem(asked, true, "jet");
   require_states_alone(asked, "eval");
@@ -61,28 +86,11 @@ EvaluatedScene evaluated_scene(const Scene& asked) {
   EvaluatedScene result;
   io::StoredJet& chief = result.chief;
   const ComputedProblem problem = make_problem(scene);
-  const IntegratorSettings& integrator = symplectic_integrator(scene);
   result.coordinates = measured_coordinates_of(scene);
-  {
-    const Stopwatch watch(result.seconds);
-    DeputyFlowPropagation propagation(scene, problem, integrator, result.coordinates);
-    result.flow = propagation.advance_to(scene.duration);
-    try {
-      result.error = FlowError::measured(scene, problem, propagation.coordinates(), *result.flow);
-    } catch (const Error& error) {
-      // The flow is there all the same; nothing is known of its errors then, which is said.
-      if (error.kind() != ErrorKind::numerical) throw;
-    }
-    if (scene.order == 2 && result.coordinates != JetCoordinates::cartesian) {
-      result.further = flow_of_third_degree(scene, integrator, propagation.coordinates());
-    }
-    if (const auto& box = propagation.flow_box()) {
-      chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
-      result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
-    }
-  }
+  integrate_flow(scene, problem, result);
+  if (scene.eval) result.split_scene = std::make_shared<const Scene>(scene);
   chief.scene = scene.name;
-  chief.label = integrator.label;
+  chief.label = symplectic_integrator(scene).label;
   chief.model = scene.system.model;
   chief.units = scene.units;
   set_rounding(result, six_numbers(scene.nominal), rounding_of_flights(problem, scene.duration));
@@ -103,6 +111,22 @@ EvaluatedScene evaluated_scene(const Scene& asked) {
   chief.variables = chief.components;
   chief.ephemeris = scene.ephemeris;
   result.checks = flight_checks(asked, flights_of(asked, scene.duration, false));
+  return result;
+}
+
+EvaluatedScene evaluated_about(const EvaluatedScene& about_chief,
+                               const SixNumbers<double>& deviation) {
+  Scene scene = *about_chief.split_scene;
+  for (std::size_t i = 0; i < deviation.size(); ++i) scene.nominal[i] += deviation[i];
+  EvaluatedScene result;
+  result.chief = about_chief.chief;
+  result.chief.nominal_initial = scene.nominal;
+  result.coordinates = about_chief.coordinates;
+  result.told = about_chief.told;
+  const ComputedProblem problem = make_problem(scene);
+  integrate_flow(scene, problem, result);
+  set_rounding(result, six_numbers(scene.nominal), rounding_of_flights(problem, scene.duration));
+  set_chief_end(result, about_chief.chief.nominal_final);
   return result;
 }
 

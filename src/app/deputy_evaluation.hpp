@@ -40,12 +40,19 @@ struct EvaluatedScene {
   double seconds = 0;  ///< duration of the integration; 0 for a stored jet
   /// Of the chief's flight; none of a stored jet, which has its own.
   std::vector<SelfCheck> checks;
+  /// The scene of the polynomials where its table [eval] asks for domains; else null.
+  std::shared_ptr<const Scene> split_scene = {};
 };
 
 /// Integrates the polynomials of a scene about an orbit in all six variables. Where the scene has a
 /// deputy that air or light moves otherwise than its chief, they are of spacecraft like it. Throws
 /// Error(scene) for others, and as the integrator.
 EvaluatedScene evaluated_scene(const Scene& scene);
+
+/// The same polynomials about an orbit that starts at a deviation from the chief's, of which
+/// deviations at the end are told from the chief. Precondition: there is a split_scene. Throws as
+/// the integrator and the coordinates.
+EvaluatedScene evaluated_about(const EvaluatedScene& scene, const SixNumbers<double>& deviation);
 
 /// Sets the chief's final state, where deputies are expanded about another orbit.
 void set_chief_end(EvaluatedScene& scene, std::vector<double> end);

@@ -1,8 +1,10 @@
 #include "hamjet/maps/domain_splitting.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "hamjet/error.hpp"
@@ -134,6 +136,109 @@ SplitMap split_domains(const std::function<FlowMap<double>(std::span<const doubl
     add(std::move(below), widths);
     add(std::move(above), widths);
   }
+}
+
+namespace {
+
+/// The least box about some of the points.
+PointDomain least_domain(std::span<const std::vector<double>> points,
+                         std::vector<std::size_t> members) {
+  PointDomain domain;
+  std::vector<double> low = points[members.front()];
+  std::vector<double> high = low;
+  for (const std::size_t k : members) {
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      low[i] = std::min(low[i], points[k][i]);
+      high[i] = std::max(high[i], points[k][i]);
+    }
+  }
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    domain.centre.push_back((low[i] + high[i]) / 2);
+    domain.half_widths.push_back((high[i] - low[i]) / 2);
+  }
+  domain.points = std::move(members);
+  return domain;
+}
+
+/// The points of a domain below and above the middle of their own box across a coordinate; nothing
+/// where they cannot be told apart.
+std::array<std::vector<std::size_t>, 2> halves(std::span<const std::vector<double>> points,
+                                               const PointDomain& domain, std::size_t coordinate) {
+  const double middle = least_domain(points, domain.points).centre[coordinate];
+  std::array<std::vector<std::size_t>, 2> parts;
+  for (const std::size_t k : domain.points) {
+    parts[points[k][coordinate] < middle ? 0 : 1].push_back(k);
+  }
+  return parts;
+}
+
+/// A domain, its weights and whether it is to be split no further.
+struct AssessedDomain {
+  PointDomain domain;
+  std::vector<double> weights;
+  bool is_last = false;
+};
+
+}  // namespace
+
+PointSplit split_points(const std::function<PointAssessment(const PointDomain&)>& assess,
+                        std::span<const std::vector<double>> points, std::span<const double> centre,
+                        const SplitSettings& settings) {
+  require(!points.empty(), "domains: points are needed");
+  require(std::all_of(points.begin(), points.end(),
+                      [&](const auto& point) { return point.size() == centre.size(); }),
+          "domains: a coordinate of each point for each of the centre is needed");
+  require(settings.tolerance > 0, "domains: the tolerance must be above 0");
+  require(settings.most_domains > 0, "domains: at least one is needed");
+  PointSplit result;
+  result.splits.resize(centre.size());
+  std::vector<AssessedDomain> all;
+  const auto add = [&](PointDomain domain) {
+    const PointAssessment found = assess(domain);
+    ++result.maps_made;
+    domain.error = found.error;
+    all.push_back({std::move(domain), found.weights});
+  };
+  std::vector<std::size_t> members(points.size());
+  std::iota(members.begin(), members.end(), std::size_t{0});
+  PointDomain first = least_domain(points, std::move(members));
+  for (std::size_t i = 0; i < centre.size(); ++i) {
+    // About the given centre.
+    first.half_widths[i] += std::abs(first.centre[i] - centre[i]);
+    first.centre[i] = centre[i];
+  }
+  add(std::move(first));
+  const auto needs_less = [&](const AssessedDomain& one, const AssessedDomain& other) {
+    const auto rank = [&](const AssessedDomain& d) { return d.is_last ? -1.0 : d.domain.error; };
+    if (rank(one) != rank(other)) return rank(one) < rank(other);
+    return one.domain.points.size() < other.domain.points.size();
+  };
+  while (true) {
+    const auto worst = std::max_element(all.begin(), all.end(), needs_less);
+    const bool is_done = worst->is_last || !(worst->domain.error > settings.tolerance);
+    if (is_done || all.size() >= settings.most_domains) break;
+    const auto largest = std::max_element(worst->weights.begin(), worst->weights.end());
+    const auto coordinate = static_cast<std::size_t>(largest - worst->weights.begin());
+    if (!(*largest > 0)) {
+      worst->is_last = true;
+      continue;
+    }
+    auto [below, above] = halves(points, worst->domain, coordinate);
+    if (below.empty() || above.empty()) {
+      // All points are at one value of it.
+      *largest = 0;
+      continue;
+    }
+    all.erase(worst);
+    ++result.splits[coordinate];
+    add(least_domain(points, std::move(below)));
+    add(least_domain(points, std::move(above)));
+  }
+  for (AssessedDomain& one : all) {
+    result.is_right = result.is_right && one.domain.error <= settings.tolerance;
+    result.domains.push_back(std::move(one.domain));
+  }
+  return result;
 }
 
 double SplitMap::error() const {

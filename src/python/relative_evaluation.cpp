@@ -71,8 +71,16 @@ void evaluate_relative(const io::StoredJet& jet, const RelativeCoordinates& coor
 void evaluate_relative(const cli::EvaluatedScene& scene, const RelativeCoordinates& coordinates,
                        const double* states, std::size_t count, const RelativeResults& results,
                        const std::function<void()>& pause) {
-  cli::DeputyEvaluation evaluation(scene, coordinates.degree.value_or(scene.flow->order()));
-  carry(frame_of(scene.chief, coordinates), evaluation, states, count, results, pause);
+  const int degree = coordinates.degree.value_or(scene.flow->order());
+  const auto frame = frame_of(scene.chief, coordinates);
+  if (!scene.split_scene) {
+    cli::DeputyEvaluation evaluation(scene, degree);
+    carry(frame, evaluation, states, count, results, pause);
+    return;
+  }
+  cli::DomainEvaluation evaluation(scene, degree, cli::usable_processors(), pause);
+  carry(frame, evaluation, states, count, results, pause);
+  if (results.domains != nullptr) *results.domains = evaluation.domains();
 }
 
 }  // namespace hamjet::python

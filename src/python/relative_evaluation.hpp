@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "../app/deputy_evaluation.hpp"
+#include "../app/domain_evaluation.hpp"
 #include "../app/eval_coordinates.hpp"
 #include "hamjet/formats/stored_jet.hpp"
 
@@ -30,6 +31,8 @@ struct RelativeResults {
   double* states;
   double* miss_m;
   unsigned char* support;
+  /// Set where the scene asks for domains; may be null.
+  std::optional<cli::EvalDomains>* domains = nullptr;
 };
 
 /// What `hamjet eval` does: relative states at the start, rows of 6 numbers, to the end of the

@@ -32,6 +32,35 @@ void warn_if_not_inside(const std::vector<unsigned char>& support, bool is_stric
   if (PyErr_WarnEx(PyExc_RuntimeWarning, text.c_str(), 1) != 0) throw py::error_already_set();
 }
 
+/// The members of `domains` in the output of `hamjet eval --json`.
+py::object domains_of(const std::optional<cli::EvalDomains>& domains) {
+  if (!domains) return py::none();
+  py::dict splits;
+  for (std::size_t i = 0; i < domains->splits.size(); ++i) {
+    splits[py::str(std::string(cli::EvalDomains::coordinates[i]))] = domains->splits[i];
+  }
+  const std::vector<cli::EvalDomain>& first = domains->domains;
+  std::vector<double> centres;
+  std::vector<double> half_widths;
+  std::vector<double> misses;
+  for (const cli::EvalDomain& domain : first) {
+    centres.insert(centres.end(), domain.centre.begin(), domain.centre.end());
+    half_widths.insert(half_widths.end(), domain.half_widths.begin(), domain.half_widths.end());
+    misses.push_back(domain.miss_m);
+  }
+  py::dict result;
+  result["tolerance_m"] = domains->tolerance_m;
+  result["count"] = domains->count;
+  result["is_limited"] = domains->is_limited;
+  result["not_right"] = domains->not_right;
+  result["maps"] = domains->maps;
+  result["splits"] = splits;
+  result["centres"] = array_of(std::move(centres), {size_of(first.size()), size_of(6)});
+  result["half_widths"] = array_of(std::move(half_widths), {size_of(first.size()), size_of(6)});
+  result["miss_m"] = array_of(std::move(misses));
+  return result;
+}
+
 }  // namespace
 
 template <class Source>
@@ -46,19 +75,21 @@ py::object relative_states(const io::StoredJet& chief, const Source& source,
   std::vector<double> results(columns * count);
   std::vector<double> miss(count);
   std::vector<unsigned char> support(count);
+  std::optional<cli::EvalDomains> domains;
   {
     const double* data = rows.data();
     const py::gil_scoped_release no_gil;
     const ArithmeticScope arithmetic;
     SignalCheck check;
     evaluate_relative(source, coordinates, data, count,
-                      {results.data(), miss.data(), support.data()}, [&] { check(); });
+                      {results.data(), miss.data(), support.data(), &domains}, [&] { check(); });
   }
   warn_if_not_inside(support, is_strict);
   return py::module_::import("hamjet.relative_states")
       .attr("_relative_states")(array_of(std::move(results), {size_of(count), size_of(columns)}),
                                 array_of(std::move(miss)), array_of(std::move(support)),
-                                py::tuple(py::cast(final_columns(chief, coordinates))));
+                                py::tuple(py::cast(final_columns(chief, coordinates))),
+                                domains_of(domains));
 }
 
 template py::object relative_states(const io::StoredJet&, const io::StoredJet&, const py::object&,

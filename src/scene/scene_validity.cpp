@@ -33,7 +33,12 @@ const TableDescription& validity_table() {
          "semi-axes of the ellipsoid of positions along the axes of the frame, as many as a system "
          "of the scene's own has coordinates; velocities fill the same one times the mean motion"},
         {"samples", form::integer(fewest_samples, most_samples), absent::value(preset.samples),
-         "deputies that are flown"}},
+         "deputies that are flown"},
+        {"separation_m", form::positive(), absent::other("domains are not counted"),
+         "also how many domains, with polynomials about centres of their own, deputies within this "
+         "separation take at the last time"},
+        {"most_domains", form::integer(1, most_samples), absent::value(preset.most_domains),
+         "no more are made"}},
        relative_frame_keys(absent::value("RTN"))})};
   return table;
 }
@@ -50,6 +55,17 @@ ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
     settings.semi_axes = read_semi_axes(validity, told_coordinates(scene.system));
   }
   validity.read_if_any("samples", settings.samples);
+  if (validity.has("separation_m")) {
+    if (!is_orbit(scene.system.model)) {
+      validity.fail(
+          "separation_m",
+          fmt::format("of deputies about an orbit, got {} along the coordinates of an own "
+                      "system, must be left out",
+                      validity.found("separation_m")));
+    }
+    settings.separation_m = validity.positive_number("separation_m");
+  }
+  validity.read_if_any("most_domains", settings.most_domains);
   return settings;
 }
 

@@ -21,12 +21,13 @@ struct TableOfStudy {
 // Each is defined in the file of its table, with its declaration and its reader.
 
 TableOfStudy bounded_of_scenes();
+TableOfStudy eval_of_scenes();
 TableOfStudy event_of_scenes();
 TableOfStudy periodic_of_scenes();
 
 /// All of them, in the order in which messages list them.
 inline std::vector<TableOfStudy> tables_of_studies() {
-  return {bounded_of_scenes(), event_of_scenes(), periodic_of_scenes()};
+  return {eval_of_scenes(), bounded_of_scenes(), event_of_scenes(), periodic_of_scenes()};
 }
 
 }  // namespace hamjet::io

@@ -121,7 +121,7 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
                start_time, duration, manoeuvres, order, arcs, symmetry, coordinates, variables,
                jet_times, integrators, separation, kinds, reference, relative_hamiltonian_times,
-               checks, comparison, figure, deputy, transfer, thruster, validity, assignment,
+               checks, comparison, figure, deputy, transfer, thruster, validity, eval, assignment,
                uncertainty, bounded, event, periodic, output, ephemeris, nominal_file, warnings,
                own_system] = scene;
   KeyText key;

@@ -151,6 +151,76 @@ TEST(DomainSplitting, SplitsAcrossTheVariableThatLimits) {
   for (const SplitDomain& domain : split.domains) EXPECT_EQ(domain.half_widths[0], 1);
 }
 
+/// At points the error of the series of 1 / (1 - x) about c is known in closed form: x = c + d, and
+/// (d / (1 - c))^(N+1) / (1 - x) is missing. The first coordinate does not matter.
+TEST(DomainSplitting, PointsAreSplitUntilEachIsRight) {
+  constexpr int order = 5;
+  const double tolerance = 1e-6;
+  std::vector<std::vector<double>> points;
+  for (int k = 0; k <= 64; ++k) points.push_back({k % 2 == 0 ? 3.0 : -3.0, k / 100.0 - 0.32});
+  std::vector<double> errors(points.size());
+  std::vector<std::vector<double>> centres;
+  const auto assess = [&](const PointDomain& domain) {
+    centres.push_back(domain.centre);
+    const double c = domain.centre[1];
+    PointAssessment found{0, {0, 1}};
+    for (const std::size_t k : domain.points) {
+      const double x = points[k][1];
+      EXPECT_LE(std::abs(x - c), domain.half_widths[1] * (1 + 1e-12));
+      errors[k] = std::abs(std::pow((x - c) / (1 - c), order + 1) / (1 - x));
+      found.error = std::max(found.error, errors[k]);
+    }
+    return found;
+  };
+  const std::vector<double> centre = {0, 0};
+  const PointSplit split = split_points(assess, points, centre, {.tolerance = tolerance});
+  EXPECT_TRUE(split.is_right);
+  EXPECT_GT(split.domains.size(), 2U);
+  EXPECT_EQ(centres.front(), centre);
+  EXPECT_EQ(split.maps_made, 2 * split.domains.size() - 1);
+  EXPECT_EQ(split.splits, (std::vector<std::size_t>{0, split.domains.size() - 1}));
+  std::vector<int> held(points.size());
+  for (const PointDomain& domain : split.domains) {
+    for (const std::size_t k : domain.points) ++held[k];
+  }
+  EXPECT_TRUE(std::all_of(held.begin(), held.end(), [](int count) { return count == 1; }));
+  EXPECT_LE(*std::max_element(errors.begin(), errors.end()), tolerance);
+  // A limit is kept and told.
+  const PointSplit limited =
+      split_points(assess, points, centre, {.tolerance = tolerance, .most_domains = 2});
+  EXPECT_FALSE(limited.is_right);
+  EXPECT_EQ(limited.domains.size(), 2U);
+  // What no split makes better is left, and splitting ends: here all is said to be of the first
+  // coordinate, which ends at its two values.
+  const auto first_alone = [&](const PointDomain&) { return PointAssessment{1, {1, 0}}; };
+  const PointSplit hopeless = split_points(first_alone, points, centre, {.tolerance = tolerance});
+  EXPECT_FALSE(hopeless.is_right);
+  EXPECT_EQ(hopeless.domains.size(), 2U);
+  EXPECT_THROW(split_points(first_alone, {}, centre, {}), Error);
+  EXPECT_THROW(split_points(first_alone, points, std::vector<double>{0}, {}), Error);
+}
+
+/// Of the published example counts grow with the time and fall with the order, and all points are
+/// right. No count is taken from a run: at t = 50 the published method needs dozens at a low order.
+TEST(DomainSplitting, PublishedExampleAtItsOwnTime) {
+  const double tolerance = 1e-5;
+  const SplitMap six = published(6, 50, tolerance);
+  const SplitMap fourteen = published(14, 50, tolerance);
+  EXPECT_GE(six.domains.size(), 24U);
+  EXPECT_LT(fourteen.domains.size(), six.domains.size() / 2);
+  EXPECT_LT(published(6, 10, tolerance).domains.size(), six.domains.size() / 4);
+  for (double x = -1; x <= 1; x += 0.25) {
+    for (double y = -1; y <= 1; y += 0.125) {
+      const std::vector<double> point = {1 + 0.008 * x, 0.08 * y};
+      const std::vector<double> right = kepler_flight(point, 50);
+      for (const SplitMap* split : {&six, &fourteen}) {
+        const std::vector<double> found = split->evaluate(point);
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(found[i], right[i], 3 * tolerance);
+      }
+    }
+  }
+}
+
 TEST(DomainSplitting, WhatMakesNoSenseIsRefused) {
   const auto map_about = [](std::span<const double>) {
     return FlowMap<double>({Series<double>(SeriesSpace::create(1, 3), 1.0)});

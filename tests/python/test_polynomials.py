@@ -186,3 +186,25 @@ def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
     assert np.abs(ratios - 1).max() < tolerance
     # For small deviations the two ways do not give the same numbers.
     assert (np.abs(ratios - 1).max() > 1e-4) == (size_m < 1e5)
+
+
+def test_deputies_beyond_reach_have_domains_of_their_own(tmp_path):
+    states = np.zeros((9, 6))
+    states[:, 1] = np.linspace(-60e3, 60e3, 9)
+    far = SCENE + "[eval]\ntolerance_m = 1\n"
+    (tmp_path / "scene.toml").write_text(far)
+    (tmp_path / "in.csv").write_text(
+        COLUMNS + "\n" + "".join(",".join(map(repr, map(float, row))) + "\n" for row in states))
+    printed = columns(command("eval", tmp_path / "scene.toml", "--deviations", tmp_path / "in.csv",
+                              "-q", directory=tmp_path).stdout)
+    found = hamjet.polynomials(far).evaluate_relative(states)
+    for i, name in enumerate(COLUMNS.split(",")):
+        assert (found.states[:, i] == numbers(printed[name])).all(), name
+    assert (found.support == "inside").all() and (found.miss_m <= 1).all()
+    domains = found.domains
+    assert domains["count"] > 1 and domains["not_right"] == 0 and not domains["is_limited"]
+    assert domains["centres"].shape == domains["half_widths"].shape == (domains["count"], 6)
+    # What flow boxes say, whose reach is further, within both tolerances.
+    boxes = hamjet.polynomials(SCENE, coordinates="flow-box").evaluate_relative(states)
+    assert (np.abs(boxes.states - found.states)[:, :3] < 1.5).all()
+    assert boxes.domains is None

@@ -24,6 +24,7 @@ inline Walk validity_walk() {
   result.points[1].time = 2.5;
   result.scene.validity->tolerance_m = 3;
   result.scene.validity->semi_axes = {1, 0.5, 0.25};
+  result.domains = {4321, 987, 41, 81, "vT", 5, 0.4375};
   return {validity_table(result),
           validity_report(result, sample_transfer_origin()),
           {3},
@@ -44,6 +45,13 @@ inline Walk validity_walk() {
                       {"semi_axes", {"", {1, 0.5, 0.25}}},
                       {"samples", {"", 40}},
                       {"flights", {"", 1234}},
+                      {"domains", {"", 41}},
+                      {"separation_m", {"m", 4321}},
+                      {"domains_split_across", {"", "vT"}},
+                      {"domain_deputies", {"", 987}},
+                      {"domain_miss_m", {"m", 0.4375}},
+                      {"deputies_not_right", {"", 5}},
+                      {"domain_maps", {"", 81}},
                       {"flight_floor_m", {"m", 1e-6}}})};
 }
 

@@ -47,6 +47,7 @@ inline Place place_of(const std::string& table, std::string_view owner) {
       {"spacecraft", {"earth/drag"}},
       {"formation", {orbit_file, {{"formation", "{separation_km=1}"}}}},
       {"deputy", {orbit_file, {{"deputy", "{position_m=[0, 100, 0]}"}}}},
+      {"eval", {orbit_file, {{"eval", "{tolerance_m=2}"}}}},
       {"bounded", {orbit_file, {{"bounded", "{box={half_widths_m=[1, 1, 1]}}"}}}},
       {"event", {orbit_file, {{"event", "{surface=\"equator\"}"}}}},
       {"periodic", {"own/pendulum", {{"periodic", "{family={along=\"theta\", to=3}}"}}}},

@@ -75,8 +75,10 @@ class StudyText {
   }
   void add(const DeputySettings& s) { add_all(s.frame, s.start); }
   void add(const ValiditySettings& s) {
-    add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame);
+    add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame, s.separation_m,
+            s.most_domains);
   }
+  void add(const EvalSettings& s) { add_all(s.tolerance_m, s.most_domains); }
   void add(const Covariance& s) {
     const Matrix<double> matrix = s.matrix();
     for (const double entry : matrix.reshaped()) add(entry);
@@ -120,8 +122,8 @@ class StudyText {
     add_all(s.title, s.precision, s.system, s.units, s.canonical_radius, s.nominal, s.duration,
             s.order, s.arcs, s.variables, s.jet_times, s.integrators, s.separation, s.kinds,
             s.reference, s.relative_hamiltonian_times, s.comparison, s.figure, s.deputy, s.transfer,
-            s.thruster, s.validity, s.assignment, s.uncertainty, s.bounded, s.event, s.periodic,
-            s.output.formats, s.ephemeris);
+            s.thruster, s.validity, s.eval, s.assignment, s.uncertainty, s.bounded, s.event,
+            s.periodic, s.output.formats, s.ephemeris);
     for (std::size_t i = 0; i < self_check_count; ++i) add(s.checks[SelfCheckName(i)]);
   }
   void add(const EnergyConservationStudy& s) {

@@ -61,4 +61,42 @@ SplitMap split_domains(const std::function<FlowMap<double>(std::span<const doubl
                        std::span<const double> centre, std::span<const double> half_widths,
                        const SplitSettings& settings);
 
+/// Some of a set of points, with the least box that holds them. All numbers are in the units of
+/// the points' coordinates.
+struct PointDomain {
+  std::vector<std::size_t> points;  ///< their indices
+  std::vector<double> centre;
+  std::vector<double> half_widths;
+  double error = 0;  ///< the largest of a point
+};
+
+/// What polynomials about a domain's centre make of its points.
+struct PointAssessment {
+  double error = 0;  ///< the largest of a point; infinite where nothing is known of it
+  /// For each coordinate, how much of the error is of it, in any unit; all 0 where no smaller
+  /// domain would have a smaller error.
+  std::vector<double> weights;
+};
+
+/// Domains that hold a set of points together.
+struct PointSplit {
+  std::vector<PointDomain> domains;
+  bool is_right = true;             ///< whether all errors are within the tolerance
+  std::size_t maps_made = 0;        ///< how often `assess` was called
+  std::vector<std::size_t> splits;  ///< for each coordinate, how many domains were halved across it
+};
+
+/// Splits a set of points into domains, as split_domains does a box, until the polynomials about
+/// each domain's centre are right to the tolerance at its points: the worst domain is halved across
+/// the coordinate of the largest weight, each half is the least box about its points, and half
+/// boxes without points need no polynomials. The first domain has all points and the given centre.
+/// `assess` is called once for each domain; the last call with a point is that of the domain that
+/// holds it in the end.
+///
+/// Throws Error(usage) for no points, points of other lengths than the centre, and settings as
+/// split_domains; and as `assess`.
+PointSplit split_points(const std::function<PointAssessment(const PointDomain&)>& assess,
+                        std::span<const std::vector<double>> points, std::span<const double> centre,
+                        const SplitSettings& settings);
+
 }  // namespace hamjet

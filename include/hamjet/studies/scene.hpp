@@ -160,6 +160,7 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ThrusterSettings> thruster;  ///< absent if velocity changes are impulses alone
   std::optional<ValiditySettings> validity;
+  std::optional<EvalSettings> eval;  ///< absent if all deputies have the polynomials of the chief
   std::optional<AssignmentSettings> assignment;
   std::optional<UncertaintySettings> uncertainty;
   std::optional<BoundedSettings> bounded;

@@ -46,13 +46,26 @@ struct ValidityPoint {
   std::vector<ValidityEntry> entries;  ///< for the orders 1..N
 };
 
+/// The domains into which a set of deputies is split until the polynomials about each one's centre
+/// are right to the tolerance at the last time.
+struct ValidityDomains {
+  double separation_m = 0;   ///< the largest semi-axis of the set
+  std::size_t deputies = 0;  ///< of the set, that were flown
+  std::size_t count = 0;
+  std::size_t maps = 0;       ///< maps that were integrated, those of domains that were split too
+  std::string split_across;   ///< coordinate across which most were split; empty for one domain
+  std::size_t not_right = 0;  ///< deputies beyond the tolerance, if the limit on domains was met
+  double miss_m = 0;          ///< the largest flown miss
+};
+
 /// All results of the study of table `[validity]`.
 struct ValidityResult {
   Scene scene;  ///< with `validity`
   std::string integrator;
   ChosenCoordinates coordinates;  ///< coordinates of the polynomials; not automatic
   std::vector<ValidityPoint> points;
-  double flight_floor_m = 0;  ///< see TransferResult
+  std::optional<ValidityDomains> domains = {};  ///< where `validity.separation_m` asks for it
+  double flight_floor_m = 0;                    ///< see TransferResult
   long flights = 0;
   double propagation_seconds = 0;
   double proof_seconds = 0;

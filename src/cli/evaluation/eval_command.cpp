@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <system_error>
 
 #include "../../app/deputy_evaluation.hpp"
@@ -15,6 +17,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../report/study_checks.hpp"
 #include "../../store/json_text.hpp"
+#include "../../store/json_values.hpp"
 #include "../../store/spooled_text.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/scene_message.hpp"
@@ -110,6 +113,33 @@ bool has_companion(const EvalSource& jet) {
   return scene && scene->companion != SixNumbers<double>{};
 }
 
+Json domains_json(const std::optional<EvalDomains>& domains) {
+  if (!domains) return nullptr;
+  Json splits = Json::object();
+  for (std::size_t i = 0; i < domains->splits.size(); ++i) {
+    splits[std::string(EvalDomains::coordinates[i])] = domains->splits[i];
+  }
+  Json list = Json::array();
+  for (const EvalDomain& domain : domains->domains) {
+    list.push_back({{"centre_m", std::span(domain.centre).first<3>()},
+                    {"centre_m_s", std::span(domain.centre).last<3>()},
+                    {"half_widths_m", std::span(domain.half_widths).first<3>()},
+                    {"half_widths_m_s", std::span(domain.half_widths).last<3>()},
+                    {"deputies", domain.deputies},
+                    {"miss_estimate_m", io::json_number(domain.miss_m)}});
+  }
+  return {{"tolerance_m", domains->tolerance_m},
+          {"count", domains->count},
+          {"most", domains->most},
+          {"is_limited", domains->is_limited},
+          {"not_right", domains->not_right},
+          {"largest_miss_estimate_m", io::json_number(domains->largest_miss_m)},
+          {"maps", domains->maps},
+          {"seconds", domains->seconds},
+          {"splits", splits},
+          {"first", list}};
+}
+
 std::string summary(const EvalOptions& options, const std::vector<EvalSource>& jets,
                     const EvaluationWork& work, const EvalOutput& output) {
   const io::StoredJet& stored = jets.front().stored;
@@ -135,6 +165,7 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                      {"miss_estimate_covers", miss_covers(jets)},
                      {"largest_miss_estimate_m",
                       output.largest_miss() ? Json(*output.largest_miss()) : Json(nullptr)},
+                     {"domains", domains_json(work.domains)},
                      {"evaluation",
                       {{"seconds", work.seconds},
                        {"nanoseconds_per_point", work.seconds / points * 1e9},
@@ -146,6 +177,33 @@ std::string summary(const EvalOptions& options, const std::vector<EvalSource>& j
                      {"rows", output.json_rows()},
                      {"checks", io::checks_json(checks_of(jets))}};
   return io::json_text(json) + "\n";
+}
+
+/// What deputies were split into, across what, and which of them are not right.
+void report(const EvalDomains& domains) {
+  std::string across;
+  for (std::size_t i = 0; i < domains.splits.size(); ++i) {
+    if (domains.splits[i] == 0) continue;
+    across += fmt::format("{}{} across {}", across.empty() ? "" : ", ", domains.splits[i],
+                          EvalDomains::coordinates[i]);
+  }
+  std::string text = counted(domains.count, "domain");
+  if (std::isfinite(domains.largest_miss_m)) {
+    text += fmt::format(", estimates of the miss up to {}", length_text(domains.largest_miss_m));
+  }
+  if (!across.empty()) {
+    text += fmt::format(", split {}; {} integrated in {}", across, counted(domains.maps, "map"),
+                        duration_text(domains.seconds));
+  }
+  print_note(text);
+  if (domains.not_right == 0) return;
+  print_note(fmt::format(
+      "{} not right to {}, and marked outside: {}", counted(domains.not_right, "deputy"),
+      length_text(domains.tolerance_m),
+      domains.is_limited
+          ? fmt::format("the limit of {} was met; a larger eval.most_domains may do",
+                        counted(domains.most, "domain"))
+          : "rounding and integration alone are more, or orbits that cannot be flown are near"));
 }
 
 void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& jets,
@@ -187,7 +245,8 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
   }
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(jets)));
-  if (output.outside() > 0) {
+  if (work.domains) report(*work.domains);
+  if (output.outside() > 0 && !work.domains) {
     print_note(fmt::format(
         "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
         "such deviations, and the numbers are sizes alone",
@@ -233,11 +292,20 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, DeviationRows& 
   const double time_s = jet.stored.duration * jet.stored.units.time_s;
   if (jet.scene) {
     const int degree = options.degree.value_or(jet.order());
-    DeputyEvaluation evaluation(*jet.scene, degree, options.threads.value_or(usable_processors()));
-    carry(coordinates, time_s, deviations, evaluation, nullptr, output);
-    work.add(evaluation.seconds(), evaluation.multiply_adds(),
-             MapEvaluator(jet.scene->flow->polynomials(), degree));
-    work.chart_seconds += evaluation.chart_seconds();
+    const std::size_t threads = options.threads.value_or(usable_processors());
+    const auto evaluate_by = [&](auto&& evaluation) {
+      carry(coordinates, time_s, deviations, evaluation, nullptr, output);
+      work.add(evaluation.seconds(), evaluation.multiply_adds(),
+               MapEvaluator(jet.scene->flow->polynomials(), degree));
+      work.chart_seconds += evaluation.chart_seconds();
+    };
+    if (jet.scene->split_scene) {
+      DomainEvaluation evaluation(*jet.scene, degree, threads, stop_if_interrupted);
+      evaluate_by(evaluation);
+      work.domains = evaluation.domains();
+    } else {
+      evaluate_by(DeputyEvaluation(*jet.scene, degree, threads));
+    }
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
+#include "../../app/domain_evaluation.hpp"
 #include "hamjet/maps/map_evaluator.hpp"
 
 namespace hamjet::cli {
@@ -15,6 +17,7 @@ struct EvaluationWork {
   std::size_t products_per_point = 0;
   /// The multiply-adds of all points, with those of the lower degrees that estimates need.
   double all_multiply_adds = 0;
+  std::optional<EvalDomains> domains = {};  ///< where the scene asks for them
 
   /// The speed of the polynomials, without the time of the charts.
   double multiply_adds_per_second() const { return all_multiply_adds / (seconds - chart_seconds); }

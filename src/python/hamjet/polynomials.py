@@ -87,6 +87,8 @@ class Polynomials(Immutable):
 
         Arguments and result as of ``Jet.evaluate_relative``. Estimates of the miss cover what the
         missing degrees would add and the rounding of flights, not the error of the integration.
+        Where the scene has a table [eval], deputies beyond reach are split into domains with
+        polynomials of their own, which `domains` of the result tells.
         Raises UsageError, and NumericalError if strict.
         """
         return self._study.evaluate_relative(states, frame, to, derivatives, degree, strict)

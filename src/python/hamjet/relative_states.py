@@ -34,6 +34,11 @@ class RelativeStates(_RelativeStates):
 
     #: The names of the columns of ``states``, as `hamjet eval` has them.
     columns: tuple[str, ...]
+    #: Where the scene's table [eval] asks for them, what the deputies were split into, else None:
+    #: "tolerance_m", "count", "is_limited" (whether the limit was met), "not_right" (deputies, which
+    #: are marked "outside"), "maps", "splits" (how often across "R" to "vT" and "vN"), and of up to
+    #: 100 domains "centres" and "half_widths", (n, 6) along R, T, N in m and m/s, and "miss_m".
+    domains: dict[str, Any] | None = None
 
     def __repr__(self) -> str:
         if len(self.states) == 1:
@@ -58,11 +63,13 @@ _SUPPORT = np.array(["inside", "outside", "unknown"])
 
 
 def _relative_states(states: npt.NDArray[np.float64], miss_m: npt.NDArray[np.float64],
-                     support: npt.NDArray[np.uint8], columns: tuple[str, ...]) -> RelativeStates:
+                     support: npt.NDArray[np.uint8], columns: tuple[str, ...],
+                     domains: dict[str, Any] | None = None) -> RelativeStates:
     words = _SUPPORT[support]
     words.flags.writeable = False
     result = RelativeStates(states, miss_m, words)
     result.columns = columns
+    result.domains = domains
     return result
 
 

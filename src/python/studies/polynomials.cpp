@@ -55,6 +55,7 @@ py::array_t<double> PolynomialsStudy::reach(double tolerance_m, int samples,
   measured.validity->times = {scene_->duration};
   measured.validity->tolerance_m = tolerance_m;
   measured.validity->samples = samples;
+  measured.validity->separation_m.reset();
   const ValidityResult result =
       interruptibly(progress, [measured, file = file_](const ProgressCallback& report) {
         return io::naming_file(file, [&] { return study_validity(measured, report); });

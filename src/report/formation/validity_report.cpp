@@ -120,6 +120,29 @@ TableView validity_table(const ValidityResult& result) {
                    settings.samples);
   table.add_scalar("flights", "", "the number of deputies that were flown with the full equations",
                    result.flights);
+  const auto of_domains = [&](auto member) {
+    return result.domains ? std::optional((*result.domains).*member) : std::nullopt;
+  };
+  using Domains = ValidityDomains;
+  table.add_scalar("domains", "",
+                   "the number of domains, with polynomials of the highest order about centres of "
+                   "their own, that deputies within `separation_m` take at the last time; nothing "
+                   "where the scene does not ask",
+                   of_domains(&Domains::count));
+  table.add_scalar("separation_m", "m", "the largest semi-axis of the set that was split",
+                   of_domains(&Domains::separation_m));
+  table.add_scalar("domains_split_across", "",
+                   "the coordinate across which most domains were halved; empty for one domain",
+                   of_domains(&Domains::split_across));
+  table.add_scalar("domain_deputies", "", "the number of deputies of that set, all flown",
+                   of_domains(&Domains::deputies));
+  table.add_scalar("domain_miss_m", "m", "the largest miss of these", of_domains(&Domains::miss_m));
+  table.add_scalar("deputies_not_right", "",
+                   "the number of them beyond the tolerance, where the limit on domains was met",
+                   of_domains(&Domains::not_right));
+  table.add_scalar("domain_maps", "",
+                   "the number of maps that were integrated, those of domains that were split too",
+                   of_domains(&Domains::maps));
   table.add_scalar("flight_floor_m", "m", "misses below this say nothing", result.flight_floor_m);
   std::vector<ReachRow> rows;
   for (const ValidityPoint& point : result.points) {

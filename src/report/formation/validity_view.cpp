@@ -6,6 +6,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../text/html_text.hpp"
+#include "../../text/quantity_text.hpp"
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
@@ -22,6 +23,29 @@ std::string unproved_text(const ValidityResult& result) {
       "integrator, or a larger tolerance, may prove some.",
       length_text(result.flight_floor_m));
 }
+
+namespace {
+
+/// How many domains the set takes that the scene asks about, as a sentence after a space.
+std::string domains_text(const ValidityResult& result) {
+  if (!result.domains) return "";
+  const ValidityDomains& domains = *result.domains;
+  const std::string tolerance = length_text(result.scene.validity->tolerance_m);
+  const std::string set = fmt::format("{} within {}", counted(domains.deputies, "deputy"),
+                                      length_text(domains.separation_m));
+  std::string text = fmt::format(" In order {} {} take {}", result.scene.order, set,
+                                 counted(domains.count, "domain"));
+  if (!domains.split_across.empty()) {
+    text += fmt::format(", split most across {}", domains.split_across);
+  }
+  if (domains.not_right == 0) {
+    return text + fmt::format(", flown to be right to {}.", length_text(domains.miss_m));
+  }
+  return text +
+         fmt::format(", with which {} of them are not right to {}.", domains.not_right, tolerance);
+}
+
+}  // namespace
 
 std::string validity_verdict(const ValidityResult& result) {
   if (result.points.empty()) return "No time was examined.";
@@ -42,7 +66,7 @@ std::string validity_verdict(const ValidityResult& result) {
       std::any_of(last.entries.begin(), last.entries.end(),
                   [](const ValidityEntry& entry) { return entry.is_at_limit; });
   if (is_one_at_limit) text += " At least: nothing further away was tried.";
-  return text + unproved_text(result);
+  return text + unproved_text(result) + domains_text(result);
 }
 
 std::vector<std::string> limit_cells(const ReachLimit& limit) {

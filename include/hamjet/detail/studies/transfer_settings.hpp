@@ -146,6 +146,17 @@ struct ValiditySettings {
   std::vector<double> semi_axes = {1, 1, 1};
   int samples = 40;  ///< number of deputies that are flown
   RelativeFrame frame = RelativeFrame::rtn_rotating;
+  /// If given, the domains are counted that a set of this separation is split into at the last
+  /// time, and no more than so many are made.
+  std::optional<double> separation_m = {};
+  int most_domains = 256;
+};
+
+/// Table `[eval]`: domains about centres of their own, into which deputies beyond the reach of the
+/// polynomials about the chief are split.
+struct EvalSettings {
+  double tolerance_m = 1;  ///< of every deputy's final position
+  int most_domains = 256;
 };
 
 /// The deputy in a box: one held at rest at a place, or a deputy of `[bounded]`.

@@ -14,6 +14,7 @@
 #include "../charts/free_coordinates.hpp"
 #include "../formation_problem.hpp"
 #include "../single_transfer.hpp"
+#include "deputy_domains.hpp"
 #include "deputy_rounding.hpp"
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
@@ -329,10 +330,15 @@ ValidityResult study_validity(const Scene& asked, const ProgressCallback& progre
   if (scene.coordinates != JetCoordinates::automatic) {
     ValidityResult result = ValidityStudy(scene, progress).run(scene.coordinates);
     result.checks = checks_of_chief(scene);
+    set_validity_domains(result, progress);
     return result;
   }
-  const ValidityInCoordinates all = study_validity_in_all(scene, progress);
+  Scene measured = scene;
+  measured.validity->separation_m.reset();
+  const ValidityInCoordinates all = study_validity_in_all(measured, progress);
   ValidityResult result = all.furthest();
+  result.scene.validity = scene.validity;
+  set_validity_domains(result, progress);
   result.coordinates = all.chosen();
   result.checks = all.checks;
   return result;
@@ -348,6 +354,7 @@ ValidityInCoordinates study_validity_in_all(const Scene& asked, const ProgressCa
     if (is_of_orbits && !is_orbit(scene.system.model)) continue;
     try {
       all.results.push_back(ValidityStudy(scene, progress).run(coordinates));
+      set_validity_domains(all.results.back(), progress);
     } catch (const Error& error) {
       // An orbit may lack some coordinates, and a method may not support some; the coordinates in
       // which the orbit was given always exist.
@@ -367,6 +374,7 @@ ChosenCoordinates measured_coordinates_of(const Scene& scene) {
   measured.validity = scene.validity.value_or(ValiditySettings{});
   measured.validity->times = {scene.duration};
   measured.validity->samples = few_samples;
+  measured.validity->separation_m.reset();
   return study_validity(measured).coordinates;
 }
 
