@@ -201,13 +201,21 @@ PointSplit split_points(const std::function<PointAssessment(const PointDomain&)>
   };
   std::vector<std::size_t> members(points.size());
   std::iota(members.begin(), members.end(), std::size_t{0});
-  PointDomain first = least_domain(points, std::move(members));
+  const PointDomain least = least_domain(points, std::move(members));
+  PointDomain first = least;
+  bool is_inside = true;  // the given centre in the least box
   for (std::size_t i = 0; i < centre.size(); ++i) {
-    // About the given centre.
-    first.half_widths[i] += std::abs(first.centre[i] - centre[i]);
+    const double aside = std::abs(least.centre[i] - centre[i]);
+    is_inside = is_inside && aside <= least.half_widths[i];
+    first.half_widths[i] += aside;
     first.centre[i] = centre[i];
   }
   add(std::move(first));
+  if (!is_inside && all.front().domain.error > settings.tolerance) {
+    // Points that lie together to one side may need no more than a centre among them.
+    all.clear();
+    add(least);
+  }
   const auto needs_less = [&](const AssessedDomain& one, const AssessedDomain& other) {
     const auto rank = [&](const AssessedDomain& d) { return d.is_last ? -1.0 : d.domain.error; };
     if (rank(one) != rank(other)) return rank(one) < rank(other);

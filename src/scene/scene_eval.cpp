@@ -20,6 +20,11 @@ const TableDescription& eval_table() {
 void read_eval(const TableReader& table, Scene& scene, const Nominal& /*nominal*/) {
   table.check_keys();
   require_relative_motion(table, scene);
+  if (scene.order < 2) {
+    table.fail("",
+               "no estimate of the miss to split deputies by, got jet.order = 1, must be beside an "
+               "order of 2 or more");
+  }
   EvalSettings settings;
   table.read_if_any("tolerance_m", settings.tolerance_m);
   table.read_if_any("most_domains", settings.most_domains);

@@ -163,6 +163,22 @@ TEST(DomainEvaluation, DeputiesWithinReachKeepTheJetOfTheChief) {
   EXPECT_THROW(DomainEvaluation(evaluated, 1, 1), Error);
 }
 
+// One deputy beyond all reach, whose degrees do not decay, is right about itself, to what rounding
+// and integration leave.
+TEST(DomainEvaluation, ADeputyFarAsideHasAJetOfItsOwn) {
+  const Scene scene = two_revolutions(1, 100);
+  const EvaluatedScene evaluated = cli::evaluated_scene(scene);
+  const std::vector<std::vector<double>> far = {{0.3, 0, 0.05, 0, 0.01, 0}};
+  cli::DeputyEvaluation by_one(evaluated, 4, 1);
+  EXPECT_FALSE(told(by_one, far).front().estimate.is_inside());
+  DomainEvaluation by_domains(evaluated, 4, 1);
+  const Told one = told(by_domains, far).front();
+  EXPECT_TRUE(one.estimate.is_inside());
+  EXPECT_LT(true_miss_m(scene, far.front(), one), 1e-3);
+  EXPECT_EQ(by_domains.domains().count, 1U);
+  EXPECT_EQ(by_domains.domains().maps, 2U);
+}
+
 /// The example of Wittig et al. (2015), in a plane with a node: mu = 1, from (1, 0) with (0,
 /// sqrt 1.5), in a box of positions +-0.008 by +-0.08, here as 15 x 15 deputies of a body with the
 /// unit of length 10 000 km; to 1e-5 (100 m).

@@ -89,9 +89,10 @@ struct PointSplit {
 /// Splits a set of points into domains, as split_domains does a box, until the polynomials about
 /// each domain's centre are right to the tolerance at its points: the worst domain is halved across
 /// the coordinate of the largest weight, each half is the least box about its points, and half
-/// boxes without points need no polynomials. The first domain has all points and the given centre.
-/// `assess` is called once for each domain; the last call with a point is that of the domain that
-/// holds it in the end.
+/// boxes without points need no polynomials. The first domain has all points and the given centre;
+/// where that is not right and the centre lies outside of the points' box, their own centre is
+/// tried before they are split. `assess` is called once for each domain; the last call with a point
+/// is that of the domain that holds it in the end.
 ///
 /// Throws Error(usage) for no points, points of other lengths than the centre, and settings as
 /// split_domains; and as `assess`.
