@@ -66,33 +66,9 @@ AssignmentSettings read_assignment(const TableReader& assignment, const Scene& s
                     "no table [transfer], got none, must be there with frame and transfer times "
                     "that deputies and slots share");
   }
-  if (scene.transfer->thrust == TransferThrust::fuel_optimal) {
-    assignment.fail("",
-                    "transfer.thrust = \"fuel-optimal\", got it beside pairs, of which only one is "
-                    "followed to such a thrust, must be \"impulses\" or \"energy-optimal\"");
-  }
   AssignmentSettings settings;
   assignment.read_if_any("time", settings.time);
   assignment.read_if_any("keep_apart_m", settings.keep_apart_m);
-  if (settings.keep_apart_m && scene.transfer->thrust == TransferThrust::energy_optimal) {
-    assignment.fail("keep_apart_m", fmt::format("not looked at on ways of a thrust that lasts, got "
-                                                "{}, must be beside thrust = \"impulses\"",
-                                                assignment.found("keep_apart_m")));
-  }
-  const auto refuse_beside_thrust = [&](std::string_view key, bool is_there) {
-    if (!is_there || scene.transfer->thrust != TransferThrust::energy_optimal) return;
-    assignment.fail("", fmt::format("transfer.{}, got it beside a thrust that lasts, on whose ways "
-                                    "it is not looked at, must be left out of [transfer]",
-                                    key));
-  };
-  refuse_beside_thrust("largest_impulse_m_s", scene.transfer->largest_impulse_m_s.has_value());
-  refuse_beside_thrust("budget_m_s", scene.transfer->budget_m_s.has_value());
-  if (scene.thruster && scene.transfer->thrust == TransferThrust::energy_optimal) {
-    assignment.fail("",
-                    "thruster: got the table [thruster] beside a thrust that lasts, which is "
-                    "not made of burns, must be left out, or beside transfer.thrust = "
-                    "\"impulses\"; transfer.largest_thrust_m_s2 limits such a thrust");
-  }
   settings.deputies = read_states<RelativeState>(
       assignment, "deputy", assigned_deputy_table(), [&](const auto& table) {
         refuse_manoeuvres(table);

@@ -7,6 +7,7 @@
 #include "../studies/arcs.hpp"
 #include "../text/scene_message.hpp"
 #include "default_integrator.hpp"
+#include "scene_lasting_thrust.hpp"
 #include "scene_relative_motion.hpp"
 #include "starts/scene_manoeuvres.hpp"
 #include "systems/scene_earth.hpp"
@@ -148,7 +149,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
   read_table("thruster", [&](const auto& table) { scene.thruster = read_thruster(table, scene); });
   root.attempt([&] {
-    if (scene.transfer) require_thruster(root.table("transfer"), scene, root.has("thruster"));
+    if (scene.transfer) require_keys_of_thrust(root, scene.transfer->thrust);
   });
   for (std::string& warning : likely_slips_of_deputies(root, scene)) {
     scene.warnings.push_back(std::move(warning));

@@ -230,8 +230,6 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
 
 /// Table `[thruster]` of a scene whose table `[transfer]` has been read, if it has one.
 ThrusterSettings read_thruster(const TableReader& thruster, const Scene& scene);
-/// Throws Error(scene) if the scene's transfer needs a thruster and there is none.
-void require_thruster(const TableReader& transfer, const Scene& scene, bool has_thruster);
 
 /// Table `[validity]`, checked against the parts of `scene` that have been read.
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,

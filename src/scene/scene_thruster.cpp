@@ -36,45 +36,12 @@ const TableDescription& thruster_table() {
   return table;
 }
 
-namespace {
-
-/// Fuel-optimal thrust is found for an acceleration that stays the same, and turns freely.
-void refuse_what_fuel_optimal_lacks(const TableReader& table) {
-  if (table.has("thrust_N")) {
-    table.fail("thrust_N",
-               fmt::format("a mass that falls, got {} beside thrust = \"fuel-optimal\", which is "
-                           "found for an acceleration that stays the same, must be "
-                           "acceleration_m_s2",
-                           table.found("thrust_N")));
-  }
-  for (const std::string_view key : {"longest_burn_s", "shortest_burn_s", "attitude"}) {
-    if (!table.has(key)) continue;
-    table.fail(key, fmt::format("not looked at, got {} beside thrust = \"fuel-optimal\", which "
-                                "burns as long as is best and turns freely, must be left out",
-                                table.found(key)));
-  }
-}
-
-}  // namespace
-
-void require_thruster(const TableReader& transfer, const Scene& scene, bool has_thruster) {
-  if (!scene.transfer || scene.transfer->thrust != TransferThrust::fuel_optimal || has_thruster) {
-    return;
-  }
-  transfer.fail("thrust",
-                "no table [thruster], got thrust = \"fuel-optimal\", must be beside one with "
-                "acceleration_m_s2");
-}
-
 ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
   table.check_keys();
   if (!is_orbit(scene.system.model)) {
     table.fail("",
                "for spacecraft in an orbit, must be left out: along the coordinates of this "
                "system velocities change by impulses");
-  }
-  if (scene.transfer && scene.transfer->thrust == TransferThrust::fuel_optimal) {
-    refuse_what_fuel_optimal_lacks(table);
   }
   ThrusterSettings settings;
   if (table.exactly_one_of({"acceleration_m_s2", "thrust_N"}) == "thrust_N") {

@@ -11,6 +11,7 @@
 #include "../studies/formation/charts/free_coordinates.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
+#include "scene_lasting_thrust.hpp"
 #include "scene_relative_motion.hpp"
 #include "starts/scene_manoeuvres.hpp"
 
@@ -222,26 +223,7 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
   transfer.read_if_any("feedback", settings.feedback);
-  if (settings.thrust == TransferThrust::fuel_optimal) {
-    for (const std::string_view key : {"largest_thrust_m_s2", "feedback"}) {
-      if (!transfer.has(key)) continue;
-      transfer.fail(key, fmt::format("not used, got {} beside thrust = \"fuel-optimal\", whose "
-                                     "limit is the acceleration of [thruster], must be left out",
-                                     transfer.found(key)));
-    }
-    if (!has_ends) {
-      transfer.fail("thrust", "no start and end, must be there with thrust = \"fuel-optimal\"");
-    }
-  }
-  if (settings.thrust == TransferThrust::impulses) {
-    for (const std::string_view key : {"thrust_order", "largest_thrust_m_s2", "feedback"}) {
-      if (!transfer.has(key)) continue;
-      transfer.fail(key, fmt::format("not used, got {} without a thrust that lasts, must be beside "
-                                     "thrust = \"energy-optimal\"",
-                                     transfer.found(key)));
-    }
-    return;
-  }
+  if (settings.thrust == TransferThrust::impulses) return;
   if (!has_ends && transfer.has("feedback")) {
     transfer.fail("feedback", "no start and end, must be there with it");
   }
@@ -279,8 +261,7 @@ const TableDescription& transfer_table() {
          "the same in periods of the nominal; without an orbit, in parts of the last time"},
         {"impulses", form::choice({"two", "optimal"}), absent::value("two"),
          "optimal: also the least velocity change by any number of impulses at any times"},
-        {"thrust", form::choice({"impulses", "energy-optimal", "fuel-optimal"}),
-         absent::value("impulses"),
+        {"thrust", form::choice(thrust_names()), absent::value("impulses"),
          "energy-optimal: also the thrust that lasts, with the least integral of its squared "
          "acceleration; fuel-optimal: from it that of `[thruster]` with the least integral of its "
          "acceleration, full or none"},
@@ -358,12 +339,6 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
     settings.impulse_gap = nominal.scale.time_of_s(transfer.number("impulse_gap_s"));
   }
   if (transfer.has("keep_out_m")) {
-    if (settings.thrust != TransferThrust::impulses) {
-      transfer.fail("keep_out_m", fmt::format("not looked at on ways of a thrust that lasts, got "
-                                              "{}, must be left out, or beside thrust = "
-                                              "\"impulses\"",
-                                              transfer.found("keep_out_m")));
-    }
     settings.keep_out_m = read_keep_out(transfer, settings, has_ends);
   }
   if (transfer.has("revolutions")) settings.revolutions = read_revolutions(transfer, has_ends);
