@@ -43,6 +43,7 @@ const std::vector<RefusedKey>& refused_keys() {
       {"transfer", "largest_thrust_m_s2", {impulses}, false, of_thrust, beside_energy},
       {"transfer", "largest_thrust_m_s2", {fuel_optimal}, false, limit, out},
       {"transfer", "feedback", {impulses, fuel_optimal}, false, law, beside_energy},
+      {"transfer", "errors", {impulses, fuel_optimal}, false, law, beside_energy},
       {"transfer", "keep_out_m", {energy_optimal, fuel_optimal}, false, way, beside_impulses},
       {"transfer",
        "thrust",

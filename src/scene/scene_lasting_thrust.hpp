@@ -20,4 +20,8 @@ inline std::vector<std::string_view> thrust_names() {
 /// scene. Throws Error(scene), or keeps the errors if the reader does.
 void require_keys_of_thrust(const TableReader& root, TransferThrust thrust);
 
+/// Table `[transfer.errors]`.
+const TableDescription& thrust_errors_table();
+ThrustErrorSettings read_thrust_errors(const TableReader& errors);
+
 }  // namespace hamjet::io

@@ -223,6 +223,14 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
   transfer.read_if_any("feedback", settings.feedback);
+  if (transfer.has("errors")) {
+    if (!transfer.has("feedback")) {
+      transfer.fail("errors",
+                    fmt::format("no law to fly by, got {} without feedback, must be beside it",
+                                transfer.found("errors")));
+    }
+    settings.errors = read_thrust_errors(transfer.table("errors"));
+  }
   if (settings.thrust == TransferThrust::impulses) return;
   if (!has_ends && transfer.has("feedback")) {
     transfer.fail("feedback", "no start and end, must be there with it");
@@ -272,6 +280,8 @@ const TableDescription& transfer_table() {
         {"feedback", form::integer(1, most_feedback_instants), absent::other("none"),
          "also the least such thrust as polynomials of the deputy's state at so many equal parts "
          "of the way, and a flight by them"},
+        {"errors", form::table(thrust_errors_table()), absent::other("none are drawn"),
+         "also flights by that law, and without it, under errors drawn at random"},
         {"budget_m_s", form::positive(), absent::other("none is looked for"),
          "the times at which the whole change is no more than this are found"},
         {"largest_impulse_m_s", form::positive(), absent::other("any"),

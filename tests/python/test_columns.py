@@ -35,7 +35,7 @@ STUDIES = {
     "motion": lambda: hamjet.motion(CIRCLES),
     "transfers": lambda: hamjet.transfer(TRANSFER, overrides={
         "transfer.count": 3, "transfer.impulses": "optimal", "transfer.thrust": "energy-optimal",
-        "transfer.feedback": 2,
+        "transfer.feedback": 2, "transfer.errors": {"magnitude": 0.01, "samples": 10},
         "transfer.budget_m_s": 20, "thruster": {"acceleration_m_s2": 0.1}, "transfer.waypoint": [
             {"time_s": 1000, "position_m": [0, -500, 200]}]}),
     "transfers of full thrust": lambda: hamjet.transfer(TRANSFER, overrides={

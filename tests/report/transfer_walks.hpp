@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../../src/report/formation/burn_view.hpp"
+#include "../../src/report/formation/feedback_errors_view.hpp"
 #include "../../src/report/formation/fuel_view.hpp"
 #include "../../src/report/formation/impulse_tables.hpp"
 #include "../../src/report/formation/thrust_view.hpp"
@@ -79,7 +80,13 @@ inline TransferResult whole_transfer() {
     instant.thrust.emplace_back(space, x);
     instant.thrust.back()[space->linear_index(3)] = x / 8;
   }
-  result.thrust->feedback = {{instant}, 0.5, 0.25, 0.75, 9.75, ""};
+  result.thrust->feedback = {{instant}, 0.5, 0.25, 0.75, 9.75, {}, ""};
+  result.scene.transfer->errors.emplace();
+  for (const double x : {1.0, 3.0, 2.0, 8.0}) {
+    result.thrust->feedback->samples.push_back(
+        {{x, x / 64, x / 16, x + 10, ""}, {100 * x, x / 4, x / 8, x + 20, ""}});
+  }
+  result.thrust->feedback->samples.push_back({{5, 5, 5, 5, ""}, {0, 0, 0, 0, "it fell"}});
   FuelOptimalTransfer fuel;
   fuel.time = 5;
   fuel.burns = {{0.25, 0.75, 2.5, {0.6, 0, 0.8}, {0, 1, 0}}, {4, 5, 5, {0, 0, 1}, {0, -1, 0}}};
@@ -276,6 +283,29 @@ inline std::vector<Walk> transfer_walks() {
             {"velocity_miss_m_s", {"m/s", 0.25}},
             {"energy_m2_s3", {"m^2/s^3", 0.75}},
             {"change_m_s", {"m/s", 9.75}}}},
+          {feedback_errors_table(result),
+           report,
+           {1},
+           {{"loop", {"", "open"}},
+            {"miss_m", {"m", {250, 800, 800}}},
+            {"velocity_miss_m_s", {"m/s", {0.625, 2, 2}}},
+            {"energy_m2_s3", {"m^2/s^3", {0.3125, 1, 1}}},
+            {"change_m_s", {"m/s", {22.5, 28, 28}}},
+            {"flights", {"", 5}},
+            {"failed", {"", 1}}}},
+          {feedback_samples_table(result),
+           report,
+           {1, 4},
+           {{"closed_miss_m", {"m", 3, {5}}},
+            {"closed_velocity_miss_m_s", {"m/s", 3.0 / 64, {5}}},
+            {"closed_energy_m2_s3", {"m^2/s^3", 3.0 / 16, {5}}},
+            {"closed_change_m_s", {"m/s", 13, {5}}},
+            {"closed_failure", {"", nullptr, {nullptr}}},
+            {"open_miss_m", {"m", 300, {nullptr}}},
+            {"open_velocity_miss_m_s", {"m/s", 0.75, {nullptr}}},
+            {"open_energy_m2_s3", {"m^2/s^3", 0.375, {nullptr}}},
+            {"open_change_m_s", {"m/s", 23, {nullptr}}},
+            {"open_failure", {"", nullptr, {"it fell"}}}}},
           {fuel_optimal_table(result),
            report,
            {0, 1},

@@ -88,5 +88,18 @@ TEST(LastingThrust, OfNoKindHasKeysOfAnother) {
   expect_scene_error(least_fuel + places, {"transfer.thrust: no table [thruster]"});
 }
 
+TEST(LastingThrust, HasErrorsBesideALawAlone) {
+  const std::string law = circle + thrust_ends + "feedback = 3\n";
+  parse_scene(law + "errors = {}\n" + places, "file.toml");
+  expect_scene_error(circle + thrust_ends + "errors = {}\n" + places,
+                     {"transfer.errors: no law to fly by", "without feedback"});
+  expect_scene_error(law + "errors = { position_m = [1, -2, 1] }\n" + places,
+                     {"transfer.errors.position_m", "no standard deviation, got -2"});
+  expect_scene_error(law + "errors = { velocity_m_s = [1, 1] }\n" + places,
+                     {"transfer.errors.velocity_m_s"});
+  expect_scene_error(law + "errors = { magnitude = 1.5 }\n" + places,
+                     {"transfer.errors.magnitude"});
+}
+
 }  // namespace
 }  // namespace hamjet::io

@@ -147,6 +147,8 @@ inline const std::map<std::string, Place>& special_places() {
   static const Override no_deputy_anomaly = {"deputy.ta_deg", "null"};
   static const Override waypoint = {"transfer.waypoint", "[{time_s=200, position_m=[1, 0, 0]}]"};
   static const Override lasting_thrust = {"transfer.thrust", "\"energy-optimal\""};
+  static const Override law = {"transfer.feedback", "2"};
+  static const Override errors = {"transfer.errors", "{}"};
   static const Override no_thruster = {"thruster", "null"};
   static const Override weak_thruster = {"thruster", "{acceleration_m_s2 = 1e-3}"};
   static const Override no_time = {"transfer.waypoint.0.time_s", "null"};
@@ -283,6 +285,12 @@ inline const std::map<std::string, Place>& special_places() {
       {"transfer.thrust_order", {"", {lasting_thrust}}},
       {"transfer.largest_thrust_m_s2", {"", {lasting_thrust}}},
       {"transfer.feedback", {"", {lasting_thrust}}},
+      {"transfer.errors.position_m", {"", {lasting_thrust, law, errors}, "[1, 2, 3]"}},
+      {"transfer.errors.velocity_m_s", {"", {lasting_thrust, law, errors}, "[1, 2, 3]"}},
+      {"transfer.errors.magnitude", {"", {lasting_thrust, law, errors}}},
+      {"transfer.errors.direction_deg", {"", {lasting_thrust, law, errors}}},
+      {"transfer.errors.samples", {"", {lasting_thrust, law, errors}}},
+      {"transfer.errors.seed", {"", {lasting_thrust, law, errors}}},
       {"thruster.acceleration_m_s2", {"", {no_thruster, weak_thruster}}},
       {"thruster.mass_kg", {"", {}, "50"}},
       {"transfer.waypoint.0.time_s", {"", {waypoint}, "100"}},

@@ -66,8 +66,11 @@ class StudyText {
   }
   void add(const TransferSettings& s) {
     add_all(s.frame, s.start, s.end, s.times, s.kind, s.tolerance_m, s.refine, s.refined_miss_m,
-            s.singular_margin, s.strict, s.impulse_gap, s.longest_coast, s.revolutions,
-            s.waypoints);
+            s.singular_margin, s.strict, s.impulse_gap, s.longest_coast, s.revolutions, s.waypoints,
+            s.thrust, s.thrust_order, s.largest_thrust_m_s2, s.feedback, s.errors);
+  }
+  void add(const ThrustErrorSettings& s) {
+    add_all(s.navigation, s.magnitude, s.direction_deg, s.samples, s.seed);
   }
   void add(const ThrusterSettings& s) {
     add_all(s.acceleration_m_s2, s.exhaust_m_s, s.mass_kg, s.propellant_kg, s.longest_burn_s,

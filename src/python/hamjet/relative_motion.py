@@ -73,10 +73,11 @@ class Transfers(Study, table="transfers"):
     all kinds, ``budget_windows``, ``impulses`` of the optimal plan and ``least_by_time``, what
     these cost, ``waypoints``, impulses of the way through them, and ``total_by_time``;
     ``energy_optimal``, transfers with a thrust that lasts, ``thrust_profile``, the thrust along
-    the way of the least, and ``feedback``, that thrust as polynomials of the deputy's state (powers
-    and coefficients by instant and monomial); ``fuel_optimal``, transfers by full thrust or none,
-    ``fuel_optimal_burns`` of these and ``primer_profile``, the primer vector along the way of the
-    least; ``burns`` of a thruster in place of impulses.
+    the way of the least, ``feedback``, that thrust as polynomials of the deputy's state (powers and
+    coefficients by instant and monomial), ``feedback_errors``, misses and costs of flights by it and
+    as planned under errors, and ``feedback_samples``, each of these; ``fuel_optimal``, transfers by
+    full thrust or none, ``fuel_optimal_burns`` of these and ``primer_profile``, the primer vector
+    along the way of the least; ``burns`` of a thruster in place of impulses.
     """
 
     def __repr__(self) -> str:

@@ -11,6 +11,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../drawing/along_time_charts.hpp"
 #include "../drawing/report_page.hpp"
+#include "feedback_errors_view.hpp"
 #include "frame_columns.hpp"
 #include "impulse_view.hpp"
 #include "transfer_json.hpp"
@@ -307,7 +308,7 @@ std::string thrust_lines(const TransferResult& result) {
   return fmt::format("  lasting thrust   {} over {}, at most {:.3g} m/s^2: misses by {}\n{}",
                      velocity_text(least->change_m_s), time_text(seconds(result, least->time)),
                      least->largest_m_s2, miss_text(least->refined->miss_m, result.flight_floor_m),
-                     feedback_line(result));
+                     feedback_line(result) + feedback_errors_lines(result));
 }
 
 std::string thrust_section_html(const TransferResult& result) {
@@ -337,7 +338,7 @@ std::string thrust_section_html(const TransferResult& result) {
          "</p>\n" +
          table_html("By transfer time, flown with the full equations of motion.",
                     "<tr>" + header_cells(names) + "</tr>", rows) +
-         "</section>\n";
+         feedback_errors_html(result) + "</section>\n";
 }
 
 }  // namespace hamjet::io

@@ -5,6 +5,7 @@
 #include "../../studies/formation/charts/free_coordinates.hpp"
 #include "burn_view.hpp"
 #include "drift_view.hpp"
+#include "feedback_errors_view.hpp"
 #include "frame_columns.hpp"
 #include "fuel_view.hpp"
 #include "hamjet/version.hpp"
@@ -139,6 +140,9 @@ Json transfer_summary_json(const TransferResult& result) {
   if (result.thrust) json["energy_optimal_thrust"].update(table_json(thrust_profile_table(result)));
   if (result.thrust && result.thrust->feedback) {
     json["energy_optimal_thrust"]["feedback"] = table_json(feedback_table(result));
+    if (result.scene.transfer->errors) {
+      json["energy_optimal_thrust"]["feedback"].update(table_json(feedback_errors_table(result)));
+    }
   }
   json["fuel_optimal_thrust"] = fuel_optimal_json(result);
   json["finite_burns"] = result.burns ? table_json(burns_table(result)) : Json(nullptr);

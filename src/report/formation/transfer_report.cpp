@@ -10,6 +10,7 @@
 #include "../drawing/study_figure.hpp"
 #include "../study_checks.hpp"
 #include "burn_view.hpp"
+#include "feedback_errors_view.hpp"
 #include "fuel_view.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
 #include "impulse_tables.hpp"
@@ -128,6 +129,13 @@ StudyReport transfer_report(const TransferResult& result,
   if (result.thrust && result.thrust->feedback) {
     report.files.push_back({"feedback.csv", table_csv(feedback_table(result))});
     report.files.push_back({"feedback.json", json_text(feedback_json(result)) + "\n"});
+    if (result.thrust->feedback->failure.empty()) {
+      report.files.push_back({"feedback.c", feedback_c_text(result)});
+    }
+    if (result.scene.transfer->errors) {
+      report.files.push_back({"feedback_errors.csv", table_csv(feedback_errors_table(result))});
+      report.files.push_back({"feedback_samples.csv", table_csv(feedback_samples_table(result))});
+    }
   }
   if (result.fuel) {
     report.files.push_back({"fuel_optimal.csv", table_csv(fuel_optimal_table(result))});

@@ -9,6 +9,7 @@
 #include "../../formats/relative_frame_text.hpp"
 #include "../../studies/formation/charts/free_coordinates.hpp"
 #include "burn_view.hpp"
+#include "feedback_errors_view.hpp"
 #include "frame_columns.hpp"
 #include "fuel_view.hpp"
 #include "impulse_tables.hpp"
@@ -330,6 +331,8 @@ std::vector<TableView> transfer_tables(const TransferResult& result) {
           energy_optimal_table(result),
           thrust_profile_table(result),
           feedback_table(result),
+          feedback_errors_table(result),
+          feedback_samples_table(result),
           fuel_optimal_table(result),
           fuel_optimal_burns_table(result),
           primer_profile_table(result),

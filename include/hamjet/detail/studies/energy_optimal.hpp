@@ -63,6 +63,22 @@ struct FeedbackInstant {
   RelativeState state;  ///< of the deputy that flies by the law
 };
 
+/// A flight with errors of its thrust, in SI units.
+struct ErroneousFlight {
+  double miss_m = 0;
+  double velocity_miss_m_s = 0;
+  double energy_m2_s3 = 0;  ///< integral of |u|^2 / 2 of the thrust as it was carried out
+  double change_m_s = 0;    ///< integral of |u| likewise
+  std::string failure;      ///< if not empty, the reason why it does not arrive
+};
+
+/// Two flights under the same errors of thrust: one by the law of feedback, to which at each
+/// instant a wrong state is told, and one by the thrust that was planned.
+struct ErrorSample {
+  ErroneousFlight closed_loop;
+  ErroneousFlight open_loop;
+};
+
 /// The thrust of least energy to the scene's end at a fixed time of arrival, as a function of the
 /// state and the time to go, and a flight by it: at each instant the polynomials of the highest
 /// order give the costates for the state that was reached, and they are flown, with the full
@@ -71,9 +87,10 @@ struct FeedbackLaw {
   std::vector<FeedbackInstant> instants;  ///< equal parts of the transfer, the first at its start
   double miss_m = 0;
   double velocity_miss_m_s = 0;
-  double energy_m2_s3 = 0;  ///< integral of |u|^2 / 2 of that flight
-  double change_m_s = 0;    ///< integral of |u| of that flight
-  std::string failure;      ///< if not empty, the reason why there is none
+  double energy_m2_s3 = 0;           ///< integral of |u|^2 / 2 of that flight
+  double change_m_s = 0;             ///< integral of |u| of that flight
+  std::vector<ErrorSample> samples;  ///< under errors drawn at random, if the scene asks for them
+  std::string failure;               ///< if not empty, the reason why there is none
 };
 
 /// The results of `thrust = "energy-optimal"`.

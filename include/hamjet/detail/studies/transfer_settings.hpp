@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,6 +79,20 @@ enum class TransferThrust {
   fuel_optimal,    ///< and, followed from it, one of least fuel within the thruster's acceleration
 };
 
+/// Table `[transfer.errors]`: errors drawn at random under which the law of feedback is flown. They
+/// are independent, of mean 0, and given by standard deviations.
+struct ThrustErrorSettings {
+  /// Of the state that the controller believes at each of its instants, along the axes of the
+  /// frame.
+  RelativeState navigation;
+  /// Of the thrust: of its size, as a share of the size, and of its direction about each of the two
+  /// axes across it. Both stay the same between instants.
+  double magnitude = 0;
+  double direction_deg = 0;
+  int samples = 200;
+  std::uint64_t seed = 1;
+};
+
 /// Table `[transfer]`: from one relative state to another in given times.
 struct TransferSettings {
   RelativeFrame frame = RelativeFrame::rtn_rotating;  ///< frame of both ends
@@ -100,7 +115,8 @@ struct TransferSettings {
   TransferThrust thrust = TransferThrust::impulses;
   int thrust_order = 3;  ///< the order of the jets in states and costates, twelve variables
   std::optional<double> largest_thrust_m_s2;  ///< largest acceleration that its thruster has
-  int feedback = 0;                  ///< instants at which the law of feedback is told; 0 for none
+  int feedback = 0;  ///< instants at which the law of feedback is told; 0 for none
+  std::optional<ThrustErrorSettings> errors;  ///< under which the law is flown
   std::optional<double> budget_m_s;  ///< if given, spans of time are sought in which a transfer
                                      ///< costs no more than this
   std::optional<double> largest_impulse_m_s;  ///< largest impulse that a transfer may have

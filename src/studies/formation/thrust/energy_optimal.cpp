@@ -291,8 +291,9 @@ EnergyOptimalTransfers energy_optimal_transfers(const Scene& scene, const Comput
                                     interval_count(scene, least.time, profile_intervals));
     if (scene.transfer->feedback > 0) {
       if (progress) progress("feedback", 0);
-      result.feedback = thrust_feedback(scene, problem, flight,
-                                        interval_count(scene, least.time, quadrature_panels));
+      result.feedback =
+          thrust_feedback(scene, orbit, problem, flight, least.refined->costates,
+                          interval_count(scene, least.time, quadrature_panels), progress);
     }
     return result;
   }

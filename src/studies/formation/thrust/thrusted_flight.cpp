@@ -115,11 +115,19 @@ Eigen::Vector3d ThrustedFlight::along_frame(const std::vector<double>& chief,
 
 void ThrustedFlight::fly_on(std::vector<double>& z, double from, double to, int panels,
                             ThrustIntegrals& integrals) const {
+  fly_on(problem_.system, {states + 3}, z, from, to, panels, integrals);
+}
+
+void ThrustedFlight::fly_on(const SharedSystem& system, const ThrustPlace& place,
+                            std::vector<double>& z, double from, double to, int panels,
+                            ThrustIntegrals& integrals) const {
+  const double unit = std::abs(place.scale) * units_.velocity_m_s() / units_.time_s;
   double now = from;
   const auto fly_to = [&](double time) {
-    z = exact_flow(problem_.system, z, problem_.start_time + now, time - now);
+    z = exact_flow(system, z, problem_.start_time + now, time - now);
     now = time;
-    const double size = thrust(z).norm();
+    const double* u = z.data() + place.first;
+    const double size = Eigen::Vector3d(u[0], u[1], u[2]).norm() * unit;
     integrals.largest_m_s2 = std::max(integrals.largest_m_s2, size);
     return size;
   };

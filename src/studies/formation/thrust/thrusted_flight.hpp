@@ -18,6 +18,12 @@ struct ThrustIntegrals {
   double largest_m_s2 = 0;
 };
 
+/// Where a system whose states hold a thrust has it: u = -scale * (three numbers from `first` on).
+struct ThrustPlace {
+  std::size_t first;
+  double scale = 1;
+};
+
 /// The flights of a deputy from the scene's start to its end in one time, by the thrust of
 /// costates. Scene and problem, one of costate_problem, must outlive it.
 class ThrustedFlight {
@@ -52,6 +58,9 @@ class ThrustedFlight {
   /// adds to the integrals.
   void fly_on(std::vector<double>& z, double from, double to, int panels,
               ThrustIntegrals& integrals) const;
+  /// The same with the states of another system, which hold the thrust at a place.
+  void fly_on(const SharedSystem& system, const ThrustPlace& place, std::vector<double>& z,
+              double from, double to, int panels, ThrustIntegrals& integrals) const;
   /// The integrals of the corrected answer, in `panels` parts, and its thrust at both ends.
   void measure(EnergyOptimalTransfer& transfer, int panels) const;
   /// The thrust of a flight with these costates at the ends of `intervals` equal parts of it.
