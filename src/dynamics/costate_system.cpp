@@ -35,6 +35,7 @@ DynamicalSystem costate_system(const DynamicalSystem& system) {
   DynamicalSystem result =
       make_system("energy-optimal control of " + system.name, std::move(hamiltonian));
   result.waves_on_a_circle = system.waves_on_a_circle;
+  result.break_times = system.break_times;
   // States and costates turn alike.
   if (system.rotated_planes.empty()) return result;
   return with_rotation(std::move(result), system.rotated_planes);

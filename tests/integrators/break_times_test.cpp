@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/costate_system.hpp"
 #include "hamjet/detail/dynamics/expression.hpp"
 #include "hamjet/integrators/cvode.hpp"
 #include "hamjet/integrators/explicit_runge_kutta.hpp"
@@ -206,6 +207,7 @@ TEST(BreakTimes, OtherSystemsKeepThem) {
   const DynamicalSystem forced = with_force(
       pushed(), [](std::span<const Expression> z) { return std::vector<Expression>{-0.1 * z[1]}; });
   EXPECT_EQ(forced.break_times, pushed().break_times);
+  EXPECT_EQ(costate_system(pushed()).break_times, pushed().break_times);
 }
 
 }  // namespace

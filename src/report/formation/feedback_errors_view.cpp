@@ -133,8 +133,9 @@ std::string feedback_errors_lines(const TransferResult& result) {
       continue;
     }
     text += fmt::format("{}: misses by {} (median), {} (95 % of {} flights), takes {}{}\n",
-                        loop.words, length_text((*miss)[0]), length_text((*miss)[1]),
-                        samples.size(), velocity_text((*change)[0]),
+                        loop.words, miss_text((*miss)[0], result.flight_floor_m),
+                        miss_text((*miss)[1], result.flight_floor_m), samples.size(),
+                        velocity_text((*change)[0]),
                         lost > 0 ? fmt::format("; {} do not arrive", lost) : "");
   }
   return text;

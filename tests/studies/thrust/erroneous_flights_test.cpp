@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "energy_optimal_flights.hpp"
+#include "hamjet/scene/scene_reader.hpp"
 
 // Flights by a law of feedback, and as planned, under errors drawn at random, beside the linear
 // theory of Clohessy and Wiltshire written by hand.
@@ -171,6 +172,22 @@ TEST(ErroneousFlights, WithoutErrorsBothLoopsAreTheFlightsThatThereWere) {
     EXPECT_NEAR(sample.closed_loop.change_m_s, law.change_m_s, 1e-10 * law.change_m_s);
     EXPECT_NEAR(sample.open_loop.change_m_s, plan.change_m_s, 1e-8 * plan.change_m_s);
   }
+}
+
+// The edges of the Earth's shadow are times at which no step passes over the change of the light,
+// in the plan as in the flights by it: both end where the answer was corrected to.
+TEST(ErroneousFlights, ThroughAShadowThePlanIsFlownToRounding) {
+  const std::string text = R"(
+system = { model = "earth", gravity_degree = 2, radiation = true }
+spacecraft = { radiation_m2_kg = 0.05 }
+nominal = { epoch_utc = "2026-03-01T06:00:00", height_km = 400, i_deg = 97.5, raan_deg = 30, u_deg = 0 }
+jet = { order = 1, duration_s = 7200 }
+transfer = { times_s = 7200, thrust = "energy-optimal", thrust_order = 2, feedback = 3, errors = { samples = 10 }, start = { position_m = [0, -5000, 1000] }, end = { position_m = [0, -100, 0] } }
+)";
+  const TransferResult result = study_transfer(io::parse_scene(text, "shadow.toml"));
+  ASSERT_TRUE(result.thrust && result.thrust->feedback) << result.thrust->failure;
+  const ErroneousFlight& open = law_of(result).samples.front().open_loop;
+  EXPECT_NEAR(open.miss_m, result.thrust->transfers.front().refined->miss_m, 1e-6);
 }
 
 /// Errors that are small beside the plan make deviations that are linear in them: the mean of the
