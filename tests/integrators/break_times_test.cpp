@@ -196,6 +196,22 @@ TEST(BreakTimes, OtherMethods) {
   }
 }
 
+/// States with the costates of least energy have the breaks of their system. From the costates (0,
+/// a) the thrust is -a cos t, whose response is (-a t sin t, -a (sin t + t cos t)) / 2.
+TEST(BreakTimes, AreThoseOfCostatesToo) {
+  constexpr double a = 0.4;
+  test::Flow<double> flow{costate_system(pushed()), {1, 0, 0, a}, 10, 1, {}, ClockTime(0.0)};
+  IntegrationStatistics statistics;
+  const auto end = test::final_state(test::run_gauss(flow, test::adaptive(8, 1e-13), &statistics));
+  const auto [q, p] = exact(10);
+  const double c = std::cos(10.0), s = std::sin(10.0);
+  EXPECT_NEAR(end[0], q - a * 10 * s / 2, 1e-12);
+  EXPECT_NEAR(end[1], p - a * (s + 10 * c) / 2, 1e-12);
+  EXPECT_NEAR(end[2], a * s, 1e-12);
+  EXPECT_NEAR(end[3], a * c, 1e-12);
+  EXPECT_LE(statistics.rejected_steps, 1);
+}
+
 TEST(BreakTimes, JetsBetweenSteps) {
   const JetTrajectory<double> jets(test::problem_of(flow_from(0, 10)), test::adaptive(8, 1e-13));
   for (const double t : {1.0, kink, 3.31, 5.0, last_kink, 8.0}) {
