@@ -53,14 +53,16 @@ Scene read_scene_of(const io::StoredJet& stored, const RunOptions& options) {
   }
 }
 
-/// The stored jet; throws unless it is of the scene's chief and expanded in all six variables.
+/// The stored jet; throws unless it is of the scene's chief and expanded in all of its variables.
 EarlierJet earlier_jet(const StoredJetChoice& jet, const io::StoredJet& stored,
                        const Scene& scene) {
   if (!is_about_chief(stored, scene))
     refuse_jet(jet, stored, "is about another orbit than the scene's");
   if (stored.components.size() != scene.nominal.size() ||
       stored.variables.size() != scene.nominal.size()) {
-    refuse_jet(jet, stored, "is not expanded in all six variables, which transfers need");
+    refuse_jet(jet, stored,
+               fmt::format("is not expanded in all {} variables, which transfers need",
+                           scene.nominal.size()));
   }
   return {stored.label, duration_in_units_of(scene, stored), jet_in_units_of(scene, stored)};
 }

@@ -70,6 +70,34 @@ TEST(FewCoordinates, TheHarmonicOscillator) {
   }
 }
 
+// A jet that was computed earlier gives the oscillator's closed form above, at its own time, and
+// the jet of another oscillator is refused. q' = q + t p of the coordinates beside is in no answer.
+TEST(FewCoordinates, AnEarlierJet) {
+  const Scene scene = oscillator();
+  const double t = 2.5, c = std::cos(t), s = std::sin(t);
+  const SpacePointer space = SeriesSpace::create(2, 3);
+  EarlierJet earlier{"earlier", t, {Series<double>(space), Series<double>(space)}};
+  const auto turn = [&](double x, double p, std::size_t i, double of_x, double of_p) {
+    earlier.jet[i][0] = of_x * x + of_p * p;
+    earlier.jet[i][space->linear_index(0)] = of_x;
+    earlier.jet[i][space->linear_index(1)] = of_p;
+  };
+  turn(0.2, 0, 0, c, s);
+  turn(0.2, 0, 1, -s, c);
+  const TransferResult result = study_transfer(scene, {}, &earlier);
+  ASSERT_EQ(result.points.size(), 1U);
+  EXPECT_EQ(result.points[0].time, t);
+  ASSERT_TRUE(result.points[0].has_answer());
+  const double p0 = (0.5 - c) / s;
+  const Eigen::Vector3d start(p0 - 0.3, 0, 0), end(-(p0 * c - s), 0, 0);
+  EXPECT_LT((result.points[0].best().start_change_m_s - start).norm(), 1e-12);
+  EXPECT_LT((result.points[0].best().end_change_m_s - end).norm(), 1e-12);
+  EXPECT_LT(result.points[0].best().miss_m, 1e-13);
+  earlier.jet[0][0] += 0.01;
+  test::expect_error([&] { study_transfer(scene, {}, &earlier); }, ErrorKind::scene,
+                     {"the earlier jet earlier is not of this scene"}, "another chief");
+}
+
 // Two frequencies, 1 and 2: F1 does not exist where either is at a multiple of pi.
 TEST(FewCoordinates, TwoOscillators) {
   const Scene scene = io::parse_scene(

@@ -10,6 +10,7 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../flights/paced_times.hpp"
+#include "../formation_scale.hpp"
 #include "../jets_along_time.hpp"
 #include "../stopwatch.hpp"
 #include "budget_windows.hpp"
@@ -51,11 +52,11 @@ std::vector<SingularTime> TransferResult::position_singularities() const {
 namespace {
 
 /// The chief of an earlier jet may differ from the scene's by no more than integrators do, relative
-/// to the initial distance.
+/// to the size of its start.
 constexpr double largest_chief_distance = 1e-6;
 
 void require_same_chief(const Scene& scene, const EarlierJet& earlier, double distance_m) {
-  const double start_m = initial_distance(scene.nominal) * metric_units(scene).length_m;
+  const double start_m = size_of_nominal(scene) * metric_units(scene).length_m;
   if (distance_m <= largest_chief_distance * start_m) return;
   throw Error(ErrorKind::scene,
               fmt::format("transfer: the earlier jet {} is not of this scene: its chief comes to a "
@@ -71,18 +72,16 @@ double TransferAnswer::total_change_m_s() const {
 }
 
 TransferResult study_transfer(const Scene& asked, const ProgressCallback& progress,
-                              const EarlierJet* earlier) {
+                              const EarlierJet* given) {
   require_deviation_problem(asked, asked.transfer.has_value(), "transfer");
   require_states_alone(asked, "transfer");
-  if (earlier != nullptr) require_one_spacecraft(asked, "transfer from an earlier jet");
+  if (given != nullptr) require_one_spacecraft(asked, "transfer from an earlier jet");
   Scene scene = with_free_coordinates(asked);
-  if (earlier != nullptr) {
+  std::optional<EarlierJet> earlier;
+  if (given != nullptr) {
+    earlier = *given;
     if (scene.nominal.size() != asked.nominal.size()) {
-      throw Error(
-          ErrorKind::scene,
-          fmt::format("transfer: of a jet of {} coordinates, got the earlier jet {}, must be "
-                      "the scene itself, or a Hamiltonian of three coordinates",
-                      told_coordinates(asked.system), earlier->label));
+      earlier->jet = with_free_coordinates(given->jet, given->time);
     }
     scene.order = earlier->jet.at(0).order();
     scene.transfer->times = {earlier->time};
@@ -115,7 +114,7 @@ TransferResult study_transfer(const Scene& asked, const ProgressCallback& progre
     result.conditions.times.push_back(time);
     result.conditions.values.push_back(chosen.conditions);
   };
-  if (earlier != nullptr) {
+  if (earlier) {
     result.integrator = earlier->label;
     require_same_chief(scene, *earlier, points.chief_error_m(earlier->time, earlier->jet));
     visit(0, earlier->jet);

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <numeric>
+
+#include "hamjet/error.hpp"
 
 namespace hamjet {
 namespace {
@@ -57,6 +61,33 @@ Scene with_free_coordinates(Scene scene) {
               scene.validity->semi_axes.end(), 0.0);
   }
   return scene;
+}
+
+FlowJet<double> with_free_coordinates(const FlowJet<double>& jet, double time) {
+  const std::size_t told = jet.size() / 2;
+  const std::size_t variables = jet.empty() ? 0 : jet[0].space().variables();
+  if (told == 0 || told > served_coordinates || jet.size() != 2 * told || variables != 2 * told) {
+    throw Error(ErrorKind::usage,
+                "free coordinates: the jet is not one of one to three coordinates "
+                "and their momenta");
+  }
+  const SeriesSpace& own = jet[0].space();
+  const SpacePointer space = SeriesSpace::create(2 * served_coordinates, own.order());
+  const auto place = [&](std::size_t v) { return v < told ? v : v - told + served_coordinates; };
+  FlowJet<double> result(2 * served_coordinates, Series<double>(space));
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    std::array<std::uint8_t, 2 * served_coordinates> exponents{};
+    for (std::size_t v = 0; v < variables; ++v) exponents[place(v)] = own.exponents(k)[v];
+    const std::size_t monomial = space->index(exponents);
+    for (std::size_t c = 0; c < jet.size(); ++c) result[place(c)][monomial] = jet[c][k];
+  }
+  for (std::size_t q = told; q < served_coordinates; ++q) {
+    const std::size_t p = served_coordinates + q;
+    result[q][space->linear_index(q)] = 1;
+    result[q][space->linear_index(p)] = time;
+    result[p][space->linear_index(p)] = 1;
+  }
+  return result;
 }
 
 std::string told_kind(const GeneratingFunctionKind& kind, const SystemSettings& system) {

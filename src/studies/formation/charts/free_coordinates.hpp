@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hamjet/detail/maps/generating_function_kind.hpp"
+#include "hamjet/integrators/flow_problem.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
@@ -16,6 +17,11 @@ std::size_t told_coordinates(const SystemSettings& system);
 /// behind them that begin at rest and move freely, p^2 / 2 each, so that studies of three serve it.
 /// What the scene wrote, its `own_text`, stays.
 Scene with_free_coordinates(Scene scene);
+
+/// The jet of such a scene after `time`, with the coordinates that move freely beside its own:
+/// their flow q + t p, p is exact. Throws Error(usage) unless the jet is one of the coordinates and
+/// momenta of a Hamiltonian of at most three.
+FlowJet<double> with_free_coordinates(const FlowJet<double>& jet, double time);
 
 /// The kind as it is told, without the letters of coordinates that move freely: `q-p` of one.
 std::string told_kind(const GeneratingFunctionKind& kind, const SystemSettings& system);
