@@ -72,13 +72,12 @@ double distance(const SixNumbers<double>& a, const SixNumbers<double>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// The largest number of a state, its momenta in units of 2^exponent.
-double largest_number(std::span<const double> state, int exponent) {
+/// The largest number of positions and of momenta, these in units of 2^exponent.
+double largest_number(std::span<const double> positions, std::span<const double> momenta,
+                      int exponent) {
   double largest = 0;
-  for (std::size_t i = 0; i < state.size(); ++i) {
-    const int unit = i < state.size() / 2 ? 0 : exponent;
-    raise_to(largest, std::ldexp(std::abs(state[i]), -unit));
-  }
+  for (const double q : positions) raise_to(largest, std::abs(q));
+  for (const double p : momenta) raise_to(largest, std::ldexp(std::abs(p), -exponent));
   return largest;
 }
 
@@ -179,9 +178,10 @@ double FlowError::of_deviation(const SixNumbers<double>& deviation) const {
 double stated_chief_error(const io::StoredJet& stored) {
   if (stored.error_by_degree.empty()) return 0;
   const std::span<const double> end(stored.nominal_final);
+  const std::size_t n = stored.degrees_of_freedom();
   // The error of a flow box is relative to its positions, that of a jet to all numbers.
-  const double size = stored.flow_box ? largest_number(end.first(end.size() / 2), 0)
-                                      : largest_number(end, stored.momentum_exponent());
+  const auto momenta = stored.flow_box ? std::span<const double>() : end.subspan(n, n);
+  const double size = largest_number(end.first(n), momenta, stored.momentum_exponent());
   return stored.error_by_degree[0] * size;
 }
 

@@ -16,11 +16,11 @@ namespace {
 constexpr std::size_t rounding_samples = 4;
 
 /// Moves the coefficients of a start by up to half a unit in the last place of the largest
-/// position, or momentum, of their degree.
+/// position, or momentum, of their degree. Parameters are kept by a flow, and are not rounded.
 template <class Real>
 void move_by_half_units(FlowProblem<Real>& along, std::mt19937_64& generator) {
   FlowJet<Real>& start = *along.initial_jet;
-  const std::size_t n = start.size() / 2;
+  const std::size_t n = along.system->degrees_of_freedom;
   for (std::size_t d = 0; d < start[0].size(); ++d) {
     for (const std::size_t first : {std::size_t{0}, n}) {
       double largest = 0;

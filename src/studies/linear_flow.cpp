@@ -236,9 +236,10 @@ void LinearFlow::find_interpolated() {
     if (!differ_little(all.matrix(matrices_), fewer.matrix(matrices_))) continue;
     const Vector<double> state = all.state(states_);
     const Vector<double> other = fewer.state(states_);
-    const Eigen::Index n = state.size() / 2;
-    is_interpolated_[before] = differ_little<Vector<double>>(state.head(n), other.head(n)) &&
-                               differ_little<Vector<double>>(state.tail(n), other.tail(n));
+    const auto n = static_cast<Eigen::Index>(problem_->system->degrees_of_freedom);
+    is_interpolated_[before] =
+        differ_little<Vector<double>>(state.head(n), other.head(n)) &&
+        differ_little<Vector<double>>(state.segment(n, n), other.segment(n, n));
   }
 }
 

@@ -36,7 +36,7 @@ double smallest_of_cubic(double h, double start, double start_slope, double end,
 LowestPointSearch::Point LowestPointSearch::point(double time, const std::vector<double>& state,
                                                   double direction) const {
   Point result{time, state, 0, 0};
-  const std::size_t n = state.size() / 2;
+  const std::size_t n = problem_.system->degrees_of_freedom;
   double square = 0;
   for (std::size_t i = 0; i < n; ++i) {
     square += state[i] * state[i];
