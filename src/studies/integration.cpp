@@ -17,6 +17,7 @@
 #include "../integrators/symmetry/symmetry_reduction.hpp"
 #include "arcs.hpp"
 #include "checks/error_promise.hpp"
+#include "checks/negligible_degrees.hpp"
 #include "checks/smooth_forces.hpp"
 #include "descriptions/method_description.hpp"
 #include "hamjet/algebra/composition.hpp"
@@ -149,6 +150,8 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
   const Stopwatch stopwatch(result.seconds);
   ErrorEstimateSettings estimate = estimate_settings(scene, progress);
   estimate.most_steps = std::max(estimate.most_steps, 4 * statistics.steps);
+  const std::vector<double> shares =
+      shares_of_linear<Real>(scene, flow, jet, estimate.momentum_exponent);
   try {
     using Lines = std::vector<JetAlongLine<Real>>;
     const auto* known = std::get_if<Lines>(&statistics.finer_lines);
@@ -162,6 +165,20 @@ JetErrorEstimate estimate_jet_error(const Scene& scene, const FlowProblem<Real>&
     if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
     result.failure = error.what();
   }
+  const int last = last_degree(shares);
+  if (!result.by_degree && last < flow.space->order()) {
+    // No steps resolve coefficients that are rounding; the degrees below them have an estimate. All
+    // of what is above may be wrong.
+    try {
+      const FlowProblem<Real> lower = of_lower_order(flow, last);
+      result.by_degree = estimate_error<Real>(lower, of_lower_order(jet, lower.space), estimate);
+      result.by_degree->resize(shares.size(), 1);
+      result.failure.clear();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
+    }
+  }
+  if (result.by_degree) tell_beside_linear(*result.by_degree, shares);
   return result;
 }
 
