@@ -189,7 +189,7 @@ int dispatch(int argc, char** argv) {
       ->add_option_function<std::string>(
           "--radius_m",
           [&](const std::string& metres) {
-            options.overrides.push_back("uncertainty.collision.radius_m=" + metres);
+            options.of_options.push_back({"uncertainty.collision.radius_m", metres, "--radius_m"});
           },
           "the sum of the radii of both spacecraft, of a conjunction data message in place of a "
           "scene")
@@ -293,8 +293,8 @@ int dispatch(int argc, char** argv) {
   if (stored.directory) return hamjet::cli::transfer_by_stored_jet(options, stored);
   if (coordinates == all_coordinates) return hamjet::cli::validity_in_all_coordinates(options);
   if (!coordinates.empty()) {
-    options.overrides.push_back(fmt::format("jet.coordinates=\"{}\"", coordinates));
-    options.overrides.emplace_back("jet.end_coordinates=null");
+    options.of_options = {{"jet.end_coordinates", "null", "--coordinates"},
+                          {"jet.coordinates", fmt::format("\"{}\"", coordinates), "--coordinates"}};
   }
   return hamjet::cli::study(options, app.get_subcommands().front()->get_name());
 }

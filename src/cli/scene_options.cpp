@@ -61,7 +61,8 @@ void take_standard_input(RunOptions& options) {
 io::Study read_study(const RunOptions& options, io::SceneUnits units) {
   refuse_empty(options.scene_file, "scene", "a file");
   refuse_empty(options.output, "--output", "a directory");
-  const auto overrides = parse_overrides(options.overrides);
+  auto overrides = parse_overrides(options.overrides);
+  overrides.insert(overrides.end(), options.of_options.begin(), options.of_options.end());
   if (options.scene_file) {
     io::Study study = options.scene_text ? io::parse_study(*options.scene_text, *options.scene_file,
                                                            overrides, units)

@@ -16,7 +16,8 @@ struct RunOptions {
   std::optional<std::string> scene_file;  ///< absent: the built-in scene
   std::optional<std::string> scene_text;  ///< the text of standard input; scene_file is its name
   std::optional<std::string> output;
-  std::vector<std::string> overrides;  ///< key=value
+  std::vector<std::string> overrides;    ///< key=value
+  std::vector<io::Override> of_options;  ///< keys that options of their own set, behind these
   bool json = false;
   bool quiet = false;
   bool has_time = false;  ///< for check: whether to measure how long each command would take

@@ -21,11 +21,18 @@ bool is_path_to(std::string_view outer, std::string_view inner) {
 }  // namespace
 
 std::string location(std::string_view source, std::size_t line, std::size_t column) {
-  if (line == 0 || source.starts_with(override_prefix)) return std::string(source);
+  if (line == 0 || is_override_source(source)) return std::string(source);
   return fmt::format("{}:{}:{}", source, line, column);
 }
 
-std::string override_source(std::string_view key) {
+bool is_override_source(std::string_view source) {
+  // Options that stand for a key are words; a file of such a name has an ending.
+  return source.starts_with(override_prefix) ||
+         (source.starts_with("--") && source.find_first_of("./ ") == std::string_view::npos);
+}
+
+std::string override_source(std::string_view key, std::string_view option) {
+  if (!option.empty()) return std::string(option);
   return fmt::format("{}{}", override_prefix, printable(key, longest_shown_key));
 }
 

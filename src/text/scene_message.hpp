@@ -36,8 +36,11 @@ std::optional<std::string_view> remedy_for_foreign_key(std::string_view table,
 /// for tables without a text.
 std::string location(std::string_view source, std::size_t line, std::size_t column);
 
-/// The source name of values that come from `--set key=value`: the option with the key as written.
-std::string override_source(std::string_view key);
+/// The source name of values that come from `--set key=value`: the option with the key as written,
+/// or the option that stands for this key, such as `--coordinates`.
+std::string override_source(std::string_view key, std::string_view option = {});
+/// Whether a message begins with such an option, which has no lines.
+bool is_override_source(std::string_view source);
 
 /// Where the values of a scene come from.
 struct SceneSource {

@@ -141,6 +141,17 @@ TEST(SceneInputErrors, Overrides) {
   expect_override_error({"system.J2", "1e-400"}, scene,
                         {"--set system.J2: out of range, got 1e-400"});
   expect_override_error({"jet.ordre", "3"}, scene, {"--set jet.ordre: ", "did you mean order?"});
+  // An option that stands for a key is named itself, and what it removes need not be there.
+  expect_override_error({"jet.order", "0", "--order"}, scene, {"--order: out of range"});
+  expect_override_error({"jet.order", "1e400", "--order"}, scene, {"--order: out of range, got"});
+  EXPECT_EQ(
+      parse_scene(orbit, "file.toml", {{"jet.end_coordinates", "null", "--coordinates"}}).order,
+      parse_scene(orbit, "file.toml").order);
+  expect_error(
+      [] {
+        parse_scene(orbit, "file.toml", {{"jet.order", "2"}, {"jet.order", "3", "--order"}});
+      },
+      usage, {"--order: the same key as --set jet.order; must be given once"}, "both");
   expect_override_error({"a.b", "3"}, scene, {"--set a.b: unknown key, got a,"});
   expect_override_error({"reference", "{tol = 1}"}, scene, {"--set reference.tol: unknown key"});
   expect_override_error({"integrator.gauss8.stages", "13"}, scene,

@@ -19,6 +19,9 @@ namespace hamjet::io {
 struct Override {
   std::string key;
   std::string value;
+  /// The option of the command that stands for this key, which messages name: `--coordinates`;
+  /// empty: `--set key`.
+  std::string option = {};
 };
 
 /// The canonical units in which the numbers of a scene about an orbit are read.

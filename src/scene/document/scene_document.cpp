@@ -24,6 +24,9 @@ constexpr std::size_t longest_override_key = 1000;
 /// The value that removes a key; TOML has no such value.
 constexpr std::string_view removal = "null";
 
+/// The option that made the change, as messages name it.
+std::string source_of(const Override& change) { return override_source(change.key, change.option); }
+
 /// Whether a text that was refused is valid TOML all the same: if memory runs out while the library
 /// reads a number, it reports the number as invalid.
 bool is_toml(std::string_view text) {
@@ -52,7 +55,7 @@ toml::table parse_toml(std::string_view text, const std::string& source) {
 }
 
 [[noreturn]] void throw_usage(const Override& change, const std::string& problem) {
-  throw Error(ErrorKind::usage, fmt::format("{}: {}", override_source(change.key), problem));
+  throw Error(ErrorKind::usage, fmt::format("{}: {}", source_of(change), problem));
 }
 
 /// The text as a TOML string.
@@ -88,7 +91,7 @@ void refuse_number_out_of_range(const Override& change) {
   const bool is_integer = digits.find_first_not_of("0123456789") == std::string_view::npos;
   const bool is_long = is_integer && digits.size() > 18 && !digits.starts_with('0');
   if (rest != end || (error != std::errc::result_out_of_range && !is_long)) return;
-  throw_scene_error(override_source(change.key),
+  throw_scene_error(source_of(change),
                     fmt::format("out of range, got {}, must be a number that binary64 holds, from "
                                 "2.2e-308 to 1.8e308 in size{}",
                                 printable(change.value),
@@ -98,7 +101,7 @@ void refuse_number_out_of_range(const Override& change) {
 }
 
 toml::table override_value(const Override& change) {
-  const std::string source = override_source(change.key);
+  const std::string source = source_of(change);
   try {
     toml::table table = parse_value(change.value, source);
     // A value with a line break could add further keys.
@@ -151,7 +154,7 @@ struct Assignment {
 void assign(toml::node& place, std::string_view path, Assignment& assignment);
 
 void assign_in_table(toml::table& table, std::string_view path, Assignment& assignment) {
-  const std::string source = override_source(assignment.change.key);
+  const std::string source = source_of(assignment.change);
   const std::size_t dot = path.find('.');
   const std::string_view name = path.substr(0, dot);
   if (name.empty()) {
@@ -237,12 +240,12 @@ void refuse_second_value(const std::vector<Applied>& earlier, const Applied& las
     return other.path == last.path || other.path.starts_with(last.path + '.');
   });
   if (first == earlier.end()) return;
-  const std::string name = override_source(first->change->key);
+  const std::string name = source_of(*first->change);
   if (first->path != last.path) {
     throw_usage(*last.change,
                 fmt::format("replaces what {} has given; must stand before it", name));
   }
-  if (first->change->key != last.change->key) {
+  if (first->change->key != last.change->key || name != source_of(*last.change)) {
     throw_usage(*last.change, fmt::format("the same key as {}; must be given once", name));
   }
   throw_usage(*last.change,
@@ -283,9 +286,10 @@ Applied apply(const Override& change, SceneDocument& document) {
   Assignment assignment{change, value.get("value")};
   assign(document.table, change.key, assignment);
   if (assignment.absent) {
-    document.source.absent_keys.push_back(*assignment.absent);
+    // What an option removes beside the key that it stands for need not be there.
+    if (change.option.empty()) document.source.absent_keys.push_back(*assignment.absent);
   } else {
-    document.source.override_paths.insert_or_assign(override_source(change.key), assignment.path);
+    document.source.override_paths.insert_or_assign(source_of(change), assignment.path);
   }
   return {&change, assignment.path, assignment.is_removed_element};
 }
