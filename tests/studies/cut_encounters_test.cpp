@@ -71,6 +71,19 @@ TEST(CutEncounters, TheMessageIsOfTheWholePassageAndTheHeadlineWarns) {
       << headline;
 }
 
+// What was not sampled has no interval, and its 0 is not told as one that was measured.
+TEST(CutEncounters, WhatWasNotSampledIsSaidToBe) {
+  const Scene scene = crossing_at_the_start();
+  CollisionResult result = study_collision(scene, 1);
+  result.probability = CollisionProbability{};
+  const auto section = io::collision_section(scene, result);
+  for (const std::string& text : {section.verdict, section.table}) {
+    EXPECT_NE(text.find(" 0, not sampled: no path within 9 standard deviations"), std::string::npos)
+        << text;
+    EXPECT_EQ(text.find("from 0 to 0"), std::string::npos) << text;
+  }
+}
+
 TEST(CutEncounters, AfterABurnThatCutsThePassageThereIsNoMessage) {
   Scene scene = crossing_at_the_start();
   BurnUncertainty& burn = scene.uncertainty->burn.emplace();

@@ -66,10 +66,7 @@ std::vector<Chart> bounded_orbit_charts(const BoundedFormation& formation) {
     chart.x.includes = chart.y.includes = {-1, 1};
     const auto add = [&](const BoundedDeputy& deputy, const std::vector<RelativeState>& states,
                          std::string title, std::size_t style) {
-      ChartCurve curve;
-      curve.title = std::move(title);
-      curve.style = style;
-      curve.has_markers = false;
+      ChartCurve curve = unmarked_line(std::move(title), style);
       for (const RelativeState& state : states) {
         curve.points.emplace_back(state.position_m[plane.across] / deputy.size_m,
                                   state.position_m[plane.upwards] / deputy.size_m);

@@ -107,10 +107,7 @@ Chart box_chart(const BoundedFormation& formation) {
   constexpr double day_s = 86400;
   for (std::size_t i = 0; i < titles.size(); ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
-    ChartCurve curve;
-    curve.title = titles[i];
-    curve.style = i;
-    curve.has_markers = false;
+    ChartCurve curve = unmarked_line(titles[i], i);
     for (const BoxControl::Place& place : formation.box->places) {
       curve.points.emplace_back(place.time * formation.scene.units.time_s / day_s,
                                 place.from_reference_m[axis] / widths[axis]);

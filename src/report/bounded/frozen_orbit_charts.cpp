@@ -46,11 +46,9 @@ Chart invariant_curve_chart(const FrozenOrbitStudy& study) {
   std::size_t style = 0;
   for (const LibrationCircle& circle : study.circles) {
     if (circle.curve.empty()) continue;
-    ChartCurve curve;
-    curve.title =
-        length_text(study.length_m(circle.amplitude)) + (circle.is_chiefs ? " (chief)" : "");
-    curve.style = style;
-    curve.has_markers = false;
+    ChartCurve curve = unmarked_line(
+        length_text(study.length_m(circle.amplitude)) + (circle.is_chiefs ? " (chief)" : ""),
+        style);
     for (const auto& [q, p] : circle.curve) {
       curve.points.emplace_back(p / circle.amplitude, -q / circle.amplitude);
     }
@@ -87,9 +85,7 @@ Chart multiplier_chart(const FrozenOrbitStudy& study) {
                 "The eigenvalues of the return's derivative, {:.9g} and its inverse, off the "
                 "unit circle: the frozen orbit is unstable.",
                 real);
-  ChartCurve circle;
-  circle.title = "unit circle";
-  circle.has_markers = false;
+  ChartCurve circle = unmarked_line("unit circle");
   for (int k = 0; k <= places_of_circle; ++k) {
     const double angle = 2 * std::numbers::pi * k / places_of_circle;
     circle.points.emplace_back(std::cos(angle), std::sin(angle));

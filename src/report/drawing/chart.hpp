@@ -47,6 +47,15 @@ struct ChartCurve {
   std::vector<double> values;  ///< values of the points, whose colours replace the curve's; or none
 };
 
+/// A curve of this title and style that is a line without markers; its points are yet to be added.
+inline ChartCurve unmarked_line(std::string title = {}, std::size_t style = 0) {
+  ChartCurve curve;
+  curve.title = std::move(title);
+  curve.style = style;
+  curve.has_markers = false;
+  return curve;
+}
+
 /// A straight line over the whole chart. Those of one title look alike and share an entry of the
 /// legend.
 struct ChartRule {

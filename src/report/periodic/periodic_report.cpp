@@ -97,10 +97,7 @@ Chart orbit_chart(const PeriodicStudy& study) {
   chart.y.label = std::string(names[1]);
   chart.is_isometric = names.size() > 2;
   for (std::size_t k = 0; k < study.paths.size(); ++k) {
-    ChartCurve curve;
-    curve.title = fmt::format("orbit {}", study.paths[k].member + 1);
-    curve.style = k;
-    curve.has_markers = false;
+    ChartCurve curve = unmarked_line(fmt::format("orbit {}", study.paths[k].member + 1), k);
     curve.points = study.paths[k].points;
     chart.curves.push_back(std::move(curve));
   }

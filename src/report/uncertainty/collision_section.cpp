@@ -86,6 +86,13 @@ std::string lower_order_text(const CollisionProbability& p, int order) {
                      p.standard_error_of_change / p.probability);
 }
 
+/// A probability with its interval, or why it was not sampled; what was not has no interval.
+std::string probability_text(const CollisionProbability& p, double confidence) {
+  if (p.samples == 0) return "0, not sampled: no path within 9 standard deviations comes so near";
+  return fmt::format("{:.5g} ({:g} % from {:.5g} to {:.5g})", p.probability, confidence * 100,
+                     p.lower, p.upper);
+}
+
 std::string collision_table_text(const CollisionResult& result) {
   const CollisionProbability& p = result.probability;
   std::string text = fmt::format(
@@ -99,7 +106,7 @@ std::string collision_table_text(const CollisionResult& result) {
         result.from_s, result.to_s);
   }
   if (p.samples == 0) {
-    text += "  probability 0: no path within 9 standard deviations comes near\n";
+    text += fmt::format("  probability {}\n", probability_text(p, result.watch.confidence));
   } else {
     text += fmt::format("  probability {:.4e}, {:g} % from {:.4e} to {:.4e}: {} {} samples",
                         p.probability, result.watch.confidence * 100, p.lower, p.upper, p.samples,
@@ -111,9 +118,8 @@ std::string collision_table_text(const CollisionResult& result) {
     if (result.order > 1) text += lower_order_text(p, result.order);
   }
   if (const auto& whole = result.of_whole_passage) {
-    text +=
-        fmt::format("  of the whole passage {:.4e}, {:g} % from {:.4e} to {:.4e}\n",
-                    whole->probability, result.watch.confidence * 100, whole->lower, whole->upper);
+    text += fmt::format("  of the whole passage {}\n",
+                        probability_text(*whole, result.watch.confidence));
   }
   text += "  least separation in the window:";
   for (std::size_t k = 0; k < result.separations.shares.size(); ++k) {
@@ -149,8 +155,7 @@ Chart probability_chart(const Scene& scene, const CollisionResult& result) {
   add_revolutions(scene, axis.seconds, chart.x);
   chart.y.label = fmt::format("probability of less than {:g} m", result.watch.radius_m);
   chart.reading = "How likely it is that both have come nearer than the radius by a time.";
-  ChartCurve curve;
-  curve.has_markers = false;
+  ChartCurve curve = unmarked_line();
   for (std::size_t k = 0; k < p.times.size(); ++k) {
     curve.points.emplace_back(p.times[k] / axis.seconds, p.by_time[k]);
   }
@@ -168,15 +173,13 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
   section.key = "collision";
   section.json = collision_json(result);
   const CollisionProbability& p = result.probability;
-  section.verdict = fmt::format(
-      "The probability of coming nearer than {:g} m is {:.5g} ({:g} % from {:.5g} to "
-      "{:.5g}).",
-      result.watch.radius_m, p.probability, result.watch.confidence * 100, p.lower, p.upper);
+  section.verdict =
+      fmt::format("The probability of coming nearer than {:g} m is {}.", result.watch.radius_m,
+                  probability_text(p, result.watch.confidence));
   if (const auto& whole = result.of_whole_passage) {
     section.verdict += fmt::format(
-        " But an edge of the window lies inside the passage, of the whole of which it is {:.5g} "
-        "({:g} % from {:.5g} to {:.5g}).",
-        whole->probability, result.watch.confidence * 100, whole->lower, whole->upper);
+        " But an edge of the window lies inside the passage, of the whole of which it is {}.",
+        probability_text(*whole, result.watch.confidence));
   }
   if (result.is_cut_by_burn) {
     section.verdict +=

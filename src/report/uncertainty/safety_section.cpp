@@ -163,10 +163,7 @@ Chart separations_chart(const SafetyResult& result) {
   chart.rules.push_back({true, result.watch.keep_apart_m, "to be kept", false});
   std::size_t style = 0;
   for (const SafetyPair& pair : result.pairs) {
-    ChartCurve curve;
-    curve.title = case_text(pair);
-    curve.style = style++;
-    curve.has_markers = false;
+    ChartCurve curve = unmarked_line(case_text(pair), style++);
     for (std::size_t k = 1; k < pair.separations.shares.size(); ++k) {
       curve.points.emplace_back(pair.separations.separations[k], pair.separations.shares[k]);
     }

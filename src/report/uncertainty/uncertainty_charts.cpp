@@ -16,8 +16,7 @@ constexpr Eigen::Index most_drawn_samples = 1500;
 
 /// The ellipse of three standard deviations in two components.
 ChartCurve ellipse(const Cumulants& moments, Eigen::Index across, Eigen::Index up) {
-  ChartCurve curve;
-  curve.has_markers = false;
+  ChartCurve curve = unmarked_line();
   constexpr int points = 128;
   const Matrix<double>& axes = moments.axes();
   const double s = axes.row(across).norm();
@@ -115,10 +114,7 @@ Chart histogram_chart(const UncertaintyResult& result, const UncertaintyAt& at,
       for (const double value : values) {
         bins[std::min(count - 1, static_cast<std::size_t>((value - first) / width))] += 1;
       }
-      ChartCurve steps;
-      steps.title = fmt::format("{} flown", values.size());
-      steps.has_markers = false;
-      steps.style = 2;
+      ChartCurve steps = unmarked_line(fmt::format("{} flown", values.size()), 2);
       const double unit = 1 / (width * static_cast<double>(values.size()));
       steps.points.emplace_back(first, 0.0);
       for (std::size_t k = 0; k < count; ++k) {
@@ -134,10 +130,7 @@ Chart histogram_chart(const UncertaintyResult& result, const UncertaintyAt& at,
     const double mean = moments.mean()[component];
     const double s = moments.standard_deviations()[component];
     if (s == 0) return;
-    ChartCurve curve;
-    curve.title = std::move(title);
-    curve.style = style;
-    curve.has_markers = false;
+    ChartCurve curve = unmarked_line(std::move(title), style);
     constexpr int points = 200;
     for (int k = 0; k <= points; ++k) {
       const double x = lower + (upper - lower) * k / points;
