@@ -38,6 +38,9 @@ struct ValidityEntry {
   /// A little further the miss of some deputies jumps, because they escape, fall or leave the
   /// coordinates.
   bool is_at_wall = false;
+  /// The search ended after its last trial without an answer; `proved_m` is then 0 and says
+  /// nothing.
+  bool is_unsettled = false;
 };
 
 /// The validity of all orders at one time.

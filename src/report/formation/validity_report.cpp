@@ -6,6 +6,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/chart_drawer.hpp"
+#include "../own_units_text.hpp"
 #include "../study_checks.hpp"
 #include "frame_columns.hpp"
 #include "hamjet/report/relative_motion_report.hpp"
@@ -36,10 +37,11 @@ std::string terminal_table(const ValidityResult& result) {
     }
   }
   const std::string limit = reach_limit_text(result);
+  const std::string units = own_units_text(result.scene);
   return fmt::format(
-             "{}\n{}\nframe {}\n\n{}", result.scene.title, validity_verdict(result),
+             "{}\n{}\nframe {}{}\n\n{}", result.scene.title, validity_verdict(result),
              frame_text(result.scene.validity->frame) + coordinates_text(result.coordinates),
-             aligned_table(rows)) +
+             units.empty() ? "" : "; " + units, aligned_table(rows)) +
          (has_limit ? "> still right at the largest separation tried\n" : "") +
          (limit.empty() ? "" : limit + "\n");
 }
@@ -106,12 +108,17 @@ TableView validity_table(const ValidityResult& result) {
   table.add("limit_start_coordinate", "",
             "the coordinate of that deputy's deviation with the largest part of the degree",
             of_limit(&ReachLimit::start_coordinate));
-  table.add("limit_start_degree", "", "that coordinate's part of the degree",
-            of_limit(&ReachLimit::start_degree));
+  table.add(
+      "limit_start_degree", "",
+      "that coordinate's part of the degree; above the degree where parts of others are below 0",
+      of_limit(&ReachLimit::start_degree));
   table.add("limit_end_coordinate", "", "the coordinate in which the polynomials miss most",
             of_limit(&ReachLimit::end_coordinate));
-  table.add("limit_end_share", "", "that coordinate's part of the miss, 1 for all of it",
-            of_limit(&ReachLimit::end_share));
+  table.add(
+      "limit_end_share", "",
+      "that coordinate's part of the miss, 1 for all of it; above 1 where parts of others are "
+      "below 0",
+      of_limit(&ReachLimit::end_share));
   table.add_scalars(
       "semi_axes", "",
       "the semi-axes of the ellipsoid of deviations along the axes, in parts of the separation",

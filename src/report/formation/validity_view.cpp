@@ -11,17 +11,35 @@
 
 namespace hamjet::io {
 
+namespace {
+
+/// The orders at the last time whose search for a reach ended without an answer.
+std::string unsettled_text(const ValidityResult& result) {
+  std::vector<int> orders;
+  for (const ValidityEntry& entry : result.points.back().entries) {
+    if (entry.is_unsettled) orders.push_back(entry.order);
+  }
+  if (orders.empty()) return "";
+  return fmt::format(
+      " In order {} the search for a separation that holds ended without an answer: worse deputies "
+      "were found again and again, so that 0 m says nothing there.",
+      fmt::join(orders, ", "));
+}
+
+}  // namespace
+
 std::string unproved_text(const ValidityResult& result) {
   const std::vector<ValidityEntry>& entries = result.points.back().entries;
-  const bool is_one_unproved =
-      std::any_of(entries.begin(), entries.end(),
-                  [](const ValidityEntry& entry) { return entry.proved_m == 0; });
-  if (!is_one_unproved) return "";
-  return fmt::format(
-      " 0 m: no separation could be proved, because those deputies missed by more than the "
-      "tolerance however near they were. The flights themselves are right to {}; a finer "
-      "integrator, or a larger tolerance, may prove some.",
-      length_text(result.flight_floor_m));
+  const bool is_one_unproved = std::any_of(
+      entries.begin(), entries.end(),
+      [](const ValidityEntry& entry) { return entry.proved_m == 0 && !entry.is_unsettled; });
+  if (!is_one_unproved) return unsettled_text(result);
+  return unsettled_text(result) +
+         fmt::format(
+             " 0 m: no separation could be proved, because those deputies missed by more than the "
+             "tolerance however near they were. The flights themselves are right to {}; a finer "
+             "integrator, or a larger tolerance, may prove some.",
+             length_text(result.flight_floor_m));
 }
 
 namespace {
@@ -70,9 +88,14 @@ std::string validity_verdict(const ValidityResult& result) {
 }
 
 std::vector<std::string> limit_cells(const ReachLimit& limit) {
-  return {fmt::format("{:.1f}", limit.degree),
-          fmt::format("{:.1f} by {}", limit.start_degree, limit.start_coordinate),
-          fmt::format("{:.0f} % in {}", 100 * limit.end_share, limit.end_coordinate)};
+  // Parts have signs. A part above the whole is made up for by the others, which is said.
+  std::string start = fmt::format("{:.1f} by {}", limit.start_degree, limit.start_coordinate);
+  const double other_degree = limit.degree - limit.start_degree;
+  if (other_degree < -0.05) start += fmt::format(" and {:.1f} by others", other_degree);
+  std::string end = fmt::format("{:.0f} % in {}", 100 * limit.end_share, limit.end_coordinate);
+  const double other_share = 1 - limit.end_share;
+  if (other_share < -0.005) end += fmt::format(" and {:.0f} % in others", 100 * other_share);
+  return {fmt::format("{:.1f}", limit.degree), start, end};
 }
 
 std::string reach_limit_text(const ValidityResult& result) {

@@ -19,6 +19,7 @@
 #include "flown_deputies.hpp"
 #include "hamjet/error.hpp"
 #include "limiting_coordinates.hpp"
+#include "reach_search.hpp"
 #include "slice_maxima.hpp"
 
 namespace hamjet {
@@ -166,19 +167,28 @@ class ValidityStudy {
     return sizes;
   }
 
-  /// Flies the first samples at a separation, until one misses by far too much. Fills `misses_`
-  /// with the misses of all that were flown, the largest first, infinite if a deputy cannot be
-  /// flown, and leaves these samples in the same order.
-  void fly(FlownDeputies& deputies, int order, double separation, std::size_t count) {
-    misses_.clear();
+  /// The misses of the first samples at a separation, the largest first, up to one that misses by
+  /// far too much; infinite if a deputy cannot be flown.
+  std::vector<FlownDeputies::Worst> flown(FlownDeputies& deputies, int order, double separation,
+                                          std::size_t count) const {
+    std::vector<FlownDeputies::Worst> misses;
     count = std::min(count, flown_samples_.size());
     for (const Vector6& sample : std::span(flown_samples_).first(count)) {
-      misses_.push_back({sample, deputies.miss(separation * sample, order)});
-      if (misses_.back().miss > hopeless * tolerance_) break;
+      misses.push_back({sample, deputies.miss(separation * sample, order)});
+      if (misses.back().miss > hopeless * tolerance_) break;
     }
-    FlownDeputies::sort_by_miss(misses_);
-    std::transform(misses_.begin(), misses_.end(), flown_samples_.begin(),
-                   [](const auto& flown) { return flown.direction; });
+    FlownDeputies::sort_by_miss(misses);
+    return misses;
+  }
+
+  /// The same, which also puts the first samples in the order of their misses, so that the next
+  /// trial flies the worst ones first.
+  std::vector<FlownDeputies::Worst> fly_and_sort(FlownDeputies& deputies, int order,
+                                                 double separation, std::size_t count) {
+    std::vector<FlownDeputies::Worst> misses = flown(deputies, order, separation, count);
+    std::transform(misses.begin(), misses.end(), flown_samples_.begin(),
+                   [](const auto& one) { return one.direction; });
+    return misses;
   }
 
   /// Replaces samples by the deputies at which the miss that the flow's higher degrees foretell for
@@ -209,19 +219,17 @@ class ValidityStudy {
     const bool is_foretold = deputies.foretells(order);
     if (is_foretold) {
       foretell(deputies, order, separation);
-      fly(deputies, order, separation, worst_samples);
-      const std::vector<FlownDeputies::Worst> foretold = misses_;
+      const auto foretold = fly_and_sort(deputies, order, separation, worst_samples);
       for (const auto& start : std::span(foretold).first(std::min(most_ascents, foretold.size()))) {
         ascend(start);
       }
       if (worst.miss > tolerance_) return worst;
     }
-    fly(deputies, order, separation, flown_samples_.size());
-    if (misses_.front().miss > worst.miss) worst = misses_.front();
+    const auto misses = fly_and_sort(deputies, order, separation, flown_samples_.size());
+    if (misses.front().miss > worst.miss) worst = misses.front();
     if (is_foretold || worst.miss > tolerance_) return worst;
-    const std::vector<FlownDeputies::Worst> flown = misses_;
     for (const Vector6& start : far_apart(flown_samples_)) {
-      ascend(*std::find_if(flown.begin(), flown.end(),
+      ascend(*std::find_if(misses.begin(), misses.end(),
                            [&](const auto& deputy) { return deputy.direction == start; }));
     }
     return worst;
@@ -235,61 +243,34 @@ class ValidityStudy {
     return !(bad_miss <= good_miss * std::pow(bad / good, steepest_law));
   }
 
-  /// Finds the largest separation that holds. The miss grows as the separation to the power order +
-  /// 1. Starting from the prediction, the next separation that is tried is the one at which this
-  /// law meets the tolerance, until the largest that holds is known to a few percent. The trials
-  /// fly the samples that are foretold to miss most, or missed most. At the separation that is
-  /// found all are flown and worse deputies are sought; if one is beyond the tolerance, the search
-  /// is repeated with it. The few deputies at a wall are not found by a search, so that the result
-  /// keeps clear of a wall.
+  /// Finds the largest separation that holds (`search_reach`). The trials fly the samples that are
+  /// foretold to miss most, or missed most, and order them anew; where worse deputies are sought,
+  /// those that are found join them. The few deputies at a wall are not found by a search, so that
+  /// the result keeps clear of a wall.
   void prove(FlownDeputies& deputies, double predicted, ValidityEntry& entry) {
-    constexpr int most_trials = 40;
-    constexpr double close = 1.03;
     constexpr double clear_of_wall = 0.95;
-    double good = 0;
-    double bad = 0;
-    double bad_miss = 0;
-    double trial = predicted;
     const bool is_foretold = deputies.foretells(entry.order);
     if (is_foretold) foretell(deputies, entry.order, predicted);
-    for (int k = 0; k < most_trials; ++k) {
-      const bool needs_all = k == 0 && !is_foretold;
-      fly(deputies, entry.order, trial, needs_all ? flown_samples_.size() : worst_samples);
-      const double found = misses_.front().miss;
-      if (found <= tolerance_) {
-        good = trial;
-      } else {
-        bad = trial;
-        bad_miss = found;
-      }
-      double factor = found > 0 ? std::pow(tolerance_ / found, 1.0 / (entry.order + 1)) : 2;
-      const bool is_at_limit = good >= largest_separation_;
-      if (good > 0 && (is_at_limit || (bad > 0 && bad < close * good))) {
-        worst_ = worst_at(deputies, entry.order, good);
-        if (worst_.miss <= tolerance_) {
-          entry.is_at_limit = is_at_limit;
-          entry.is_at_wall = !is_at_limit && is_wall(good, worst_.miss, bad, bad_miss);
-          entry.proved_m = (entry.is_at_wall ? clear_of_wall : 1) * good * metres_;
-          entry.miss_m = worst_.miss * metres_;
-          return;
-        }
-        trial = bad = good;
-        bad_miss = worst_.miss;
-        good = 0;
-        factor = std::pow(tolerance_ / worst_.miss, 1.0 / (entry.order + 1));
-      }
-      factor = std::clamp(factor, 0.1, 2.0);
-      // The next trial lies slightly on the other side, so that the two bounds approach each other.
-      trial *= factor * (trial == good ? 1.01 : 0.99);
-      // If the miss grows by another law, bisection takes over after this many trials.
-      constexpr int few_trials = 4;
-      const bool is_slow = k >= few_trials && k % 2 == 0;
-      if (good > 0 && bad > 0 && (is_slow || !(trial > good && trial < bad))) {
-        trial = std::sqrt(good * bad);
-      }
-      trial = std::min(trial, largest_separation_);
-      if (trial < smallest_separation * distance_) return;
-    }
+    bool needs_all = !is_foretold;
+    ReachProblem problem{entry.order, tolerance_, smallest_separation * distance_,
+                         largest_separation_};
+    problem.miss = [&](double separation) {
+      const std::size_t count = needs_all ? flown_samples_.size() : worst_samples;
+      needs_all = false;
+      return fly_and_sort(deputies, entry.order, separation, count).front().miss;
+    };
+    problem.worst_miss = [&](double separation) {
+      worst_ = worst_at(deputies, entry.order, separation);
+      return worst_.miss;
+    };
+    const FoundReach found = search_reach(problem, predicted);
+    entry.is_unsettled = found.is_out_of_trials;
+    if (found.separation == 0) return;
+    entry.is_at_limit = found.is_at_limit;
+    entry.is_at_wall =
+        !found.is_at_limit && is_wall(found.separation, found.miss, found.next, found.next_miss);
+    entry.proved_m = (entry.is_at_wall ? clear_of_wall : 1) * found.separation * metres_;
+    entry.miss_m = found.miss * metres_;
   }
 
   /// The samples that trials fly once it is known which miss most.
@@ -311,8 +292,7 @@ class ValidityStudy {
   Matrix6 axes_;                        ///< see make_samples
   std::vector<Vector6> samples_;        ///< deviations of separation 1
   std::vector<Vector6> flown_samples_;  ///< samples with which one order is proved
-  std::vector<FlownDeputies::Worst> misses_;  ///< see fly
-  FlownDeputies::Worst worst_;                ///< at the separation that is being proved
+  FlownDeputies::Worst worst_;          ///< at the separation that is being proved
   double time_ = 0;
   ValidityResult result_;
 };
