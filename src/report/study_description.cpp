@@ -12,6 +12,7 @@
 #include "../studies/bounded/event_study.hpp"
 #include "../studies/bounded/frozen_orbit_study.hpp"
 #include "../studies/flights/manoeuvred_flight.hpp"
+#include "../studies/formation/charts/free_coordinates.hpp"
 #include "../studies/formation/deputy_motion.hpp"
 #include "../studies/formation/formation_problem.hpp"
 #include "../studies/periodic/periodic_study.hpp"
@@ -86,6 +87,18 @@ std::string lack_of_transfer(const Scene& scene) {
   if (!scene.assignment || !is_zero(scene.transfer->start) || has_end) return "";
   return "transfer.start: missing, must be a table with position_m, as must transfer.end; "
          "`hamjet assign` works on this scene's deputies and slots";
+}
+
+/// What the smallest table of the study holds. For a system that the scene writes a transfer has as
+/// many numbers as that has coordinates, and the scene's own duration.
+std::string smallest_table(const StudyDescription& study, const Scene& scene) {
+  const bool is_own = scene.system.model == SystemModel::own;
+  if (!is_own || study.table != "transfer") return std::string(study.smallest);
+  std::string zeros;
+  for (std::size_t i = 1; i < told_coordinates(scene.system); ++i) zeros += ", 0";
+  return fmt::format(
+      "times_canonical = [{:g}], start = {{position_m = [0.01{}]}}, end = {{position_m = [0{}]}}",
+      scene.duration, zeros, zeros);
 }
 
 constexpr StudyDescription descriptions[] = {
@@ -245,7 +258,7 @@ void require_table(const StudyDescription& study, const Scene& scene, const std:
     throw Error(
         ErrorKind::scene,
         fmt::format("{0}: {1}: missing, must be a table [{1}]; the smallest is {1} = {{{2}}}", name,
-                    study.table, study.smallest));
+                    study.table, smallest_table(study, scene)));
   }
   const std::string lack = study.lack != nullptr ? study.lack(scene) : "";
   if (!lack.empty()) throw Error(ErrorKind::scene, fmt::format("{}: {}", name, lack));

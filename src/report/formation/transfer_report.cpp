@@ -8,6 +8,7 @@
 #include "../../text/html_text.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../drawing/study_figure.hpp"
+#include "../own_units_text.hpp"
 #include "../study_checks.hpp"
 #include "burn_view.hpp"
 #include "feedback_errors_view.hpp"
@@ -65,6 +66,9 @@ std::string terminal_table(const TransferResult& result) {
       frame_text(settings.frame) + coordinates_text(result.coordinates), result.scene.order,
       transfer_kind_text(settings.kind, result.coordinates), counts.times,
       settings.times.front() * unit, settings.times.back() * unit);
+  if (const std::string units = own_units_text(result.scene); !units.empty()) {
+    text.insert(text.find("  transfer times"), fmt::format("  {:<17}{}\n", "units", units));
+  }
   for (const TransferOutcome& outcome : transfer_outcomes(result)) {
     text += fmt::format("{:19}{} {}\n", "", outcome.count, outcome.text);
   }

@@ -10,6 +10,7 @@
 #include "../../studies/reference.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../own_units_text.hpp"
 #include "hamjet/report/results.hpp"
 
 namespace hamjet::io {
@@ -137,9 +138,14 @@ Column estimate_column(const PropagationResult& result) {
           }};
 }
 
-Column symplecticity_column() {
+Column symplecticity_column(const Scene& scene) {
+  const bool has_drag = scene.system.earth && scene.system.earth->atmosphere;
   return {"symplecticity",
-          "symplecticity: the largest scaled defect of the Poisson brackets over all degrees.",
+          has_drag ? "symplecticity: the largest scaled defect of the Poisson brackets over all "
+                     "degrees. It is not judged: with drag the system is not Hamiltonian, and its "
+                     "true map has such a defect too."
+                   : "symplecticity: the largest scaled defect of the Poisson brackets over all "
+                     "degrees.",
           largest_defect};
 }
 
@@ -159,7 +165,7 @@ std::vector<Column> main_columns(const PropagationResult& result) {
   std::vector<Column> columns = {
       {"time", "", [](const RunResult& run) { return duration_text(run.statistics.wall_seconds); }},
       result.reference ? error_column(result) : estimate_column(result),
-      symplecticity_column()};
+      symplecticity_column(result.scene)};
   if (has_kinds(result)) columns.push_back(exactness_column(result));
   columns.push_back({"verdict",
                      "verdict: what the checks came to; ok says nothing of the size of the error.",
@@ -284,6 +290,7 @@ std::string summary_table(const PropagationResult& result) {
       scene.title, scene.order, scene.variables.size(), counted(scene.nominal.size(), "variable"),
       counted(result.problem.space->size(), "coefficient"), scene.duration * scene.units.time_s,
       scene.duration);
+  if (const std::string units = own_units_text(scene); !units.empty()) text += units + "\n";
   if (result.problem.components.size() < scene.nominal.size()) {
     text +=
         "the nominal stays in an invariant subspace: the components outside it are not computed\n";

@@ -1,0 +1,87 @@
+#include "command_test.hpp"
+
+// Scenes that write their own system, as a user of the command sees them.
+
+namespace hamjet::test {
+namespace {
+
+class OwnSystem : public CommandTest {
+ protected:
+  /// A pendulum from 1 radian at rest, over 1.2 units of time.
+  static std::string pendulum(const std::string& more = "") {
+    return "system = { model = \"own\", coordinates = [\"theta\"], momenta = [\"L\"], hamiltonian "
+           "= "
+           "\"L^2/2 - cos(theta)\" }\nnominal = { coordinates = [1], momenta = [0] }\n"
+           "jet = { order = 4, duration_canonical = 1.2 }\n" +
+           more;
+  }
+  static constexpr const char* hop =
+      "transfer = { times_canonical = [1.2], start = { position_m = [0.01] }, "
+      "end = { position_m = [0.02] } }\n";
+};
+
+// The stored jet is that which the scene's own transfer computes, so that the answers are the same.
+TEST_F(OwnSystem, TakesAStoredJet) {
+  write("pendulum.toml", pendulum(hop));
+  succeed({"run", "pendulum.toml", "-q", "-o", "jets"});
+  succeed({"transfer", "pendulum.toml", "-q", "-o", "stored", "--jet", "jets"});
+  succeed({"transfer", "pendulum.toml", "-q", "-o", "computed"});
+  const Json stored = read_json(directory_ / "stored/summary.json")["best"];
+  const Json computed = read_json(directory_ / "computed/summary.json")["best"];
+  const double least = computed["total_change_m_s"].get<double>();
+  EXPECT_GT(least, 0);
+  EXPECT_NEAR(stored["total_change_m_s"].get<double>(), least, 1e-10 * least);
+}
+
+TEST_F(OwnSystem, SaysWhatItsUnitsAre) {
+  const std::string said = "m and s are the system's own units";
+  write("pendulum.toml",
+        pendulum(std::string(hop) + "validity = { tolerance_m = 1e-3, count = 1 }"));
+  for (const char* const command : {"run", "transfer", "validity"}) {
+    const std::string out = in_one_line(succeed({command, "pendulum.toml", "-o", "out"}).out);
+    const std::size_t first = out.find(said);
+    ASSERT_NE(first, std::string::npos) << out;
+    EXPECT_EQ(out.find(said, first + 1), std::string::npos) << out;
+    const std::string with_units = in_one_line(
+        succeed({command, "pendulum.toml", "-o", "out", "--set", "units={length_km=2, time_s=3}"})
+            .out);
+    EXPECT_EQ(with_units.find(said), std::string::npos) << with_units;
+  }
+}
+
+// What the command advises is a table that the scene can have.
+TEST_F(OwnSystem, IsAdvisedOfATransferOfItsCoordinates) {
+  write("pendulum.toml", pendulum());
+  const CommandResult refused = hamjet({"transfer", "pendulum.toml"});
+  EXPECT_EQ(refused.exit_code, 3);
+  const std::string head = "the smallest is ";
+  const std::size_t at = refused.err.find(head);
+  ASSERT_NE(at, std::string::npos) << refused.err;
+  write("advised.toml", pendulum(refused.err.substr(at + head.size())));
+  succeed({"transfer", "advised.toml", "-q", "-o", "out"});
+}
+
+// The option that was written is named, and not the key that it sets.
+TEST_F(OwnSystem, HasNoCoordinatesOfOrbits) {
+  write("pendulum.toml", pendulum("validity = { tolerance_m = 1e-3, count = 1 }"));
+  expect_error({"validity", "pendulum.toml", "--coordinates", "nodal"}, 3,
+               {"hamjet: --coordinates: the model own has no key coordinates"});
+}
+
+// Drag is no Hamiltonian force: that its brackets miss is no finding, and is said to be none.
+TEST_F(OwnSystem, AndDragSayWhatIsNotSymplectic) {
+  const std::string drag =
+      content(std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes/earth/drag.toml");
+  write("drag.toml", drag);
+  const std::string said = "with drag the system is not Hamiltonian";
+  const std::string short_run = "jet.duration_s=600";
+  std::string out = in_one_line(
+      succeed({"run", "drag.toml", "-o", "out", "--set", short_run, "--set", "jet.order=2"}).out);
+  EXPECT_NE(out.find(said), std::string::npos) << out;
+  write("pendulum.toml", pendulum());
+  out = in_one_line(succeed({"run", "pendulum.toml", "-o", "out"}).out);
+  EXPECT_EQ(out.find(said), std::string::npos) << out;
+}
+
+}  // namespace
+}  // namespace hamjet::test
