@@ -72,12 +72,11 @@ double distance(const SixNumbers<double>& a, const SixNumbers<double>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-/// The largest number of positions and of momenta, these in units of 2^exponent.
-double largest_number(std::span<const double> positions, std::span<const double> momenta,
-                      int exponent) {
+/// The largest of positions q and of momenta p, these in units of 2^exponent.
+double largest_number(std::span<const double> qs, std::span<const double> ps, int exponent) {
   double largest = 0;
-  for (const double q : positions) raise_to(largest, std::abs(q));
-  for (const double p : momenta) raise_to(largest, std::ldexp(std::abs(p), -exponent));
+  for (const double q : qs) raise_to(largest, std::abs(q));
+  for (const double p : ps) raise_to(largest, std::ldexp(std::abs(p), -exponent));
   return largest;
 }
 

@@ -147,6 +147,17 @@ TEST(EarthParameters, ThrustsAreAlongTheOrbitsAxes) {
   }
 }
 
+// Momenta and parameters are no positions: the lowest point is that of the orbit alone, to what
+// another choice of steps leaves.
+TEST(EarthParameters, LowestPointIsThatOfTheOrbit) {
+  const auto lowest_of = [](bool has_parameters) {
+    return propagate(scene_of(6000, 1, has_parameters)).runs.at(0).lowest_point;
+  };
+  const auto with = lowest_of(true), without = lowest_of(false);
+  ASSERT_TRUE(with && without);
+  EXPECT_NEAR(with->distance, without->distance, 1e-9);
+}
+
 // Deputies are predicted in positions, momenta and what they differ in alone.
 TEST(EarthParameters, MotionOfDeputiesLeavesTheOthersOut) {
   const auto motion_of = [](bool has_parameters) {
