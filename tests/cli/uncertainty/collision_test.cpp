@@ -297,7 +297,7 @@ TEST_F(Collision, WarnsOfAWindowThatCutsAPassage) {
   EXPECT_NE(out.find("warning: an edge of the window 0 s to 60 s cuts a passage"),
             std::string::npos)
       << out;
-  EXPECT_NE(out.find("of the whole passage 1.6"), std::string::npos) << out;
+  EXPECT_NE(out.find("of the whole passage 0.16"), std::string::npos) << out;
   EXPECT_NE(content(directory_ / "out/report.html").find("cuts a passage"), std::string::npos);
   const Json collision = read_json(directory_ / "out/summary.json")["collision"];
   EXPECT_EQ(collision["window_widened"], false);
