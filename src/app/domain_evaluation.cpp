@@ -79,13 +79,6 @@ class DomainEvaluation::Split {
     return estimate.is_inside() && estimate.miss_m() <= tolerance_m_;
   }
 
-  SixNumbers<double> deviation_of(const std::vector<double>& coordinates) const {
-    const Vector6 deviation = axes_ * Eigen::Map<const Vector6>(coordinates.data());
-    SixNumbers<double> result;
-    std::copy(deviation.begin(), deviation.end(), result.begin());
-    return result;
-  }
-
   EvalDomain metric(const PointDomain& domain) const {
     const CanonicalUnits& units = chief_.chief.units;
     const double length_m = units.length_km * 1000;
@@ -106,7 +99,7 @@ class DomainEvaluation::Split {
     if (owner_.pause_) owner_.pause_();
     const bool is_first = std::exchange(is_first_, false);
     if (is_first) return evaluate(domain, {}, chief_, owner_.about_chief_);
-    const SixNumbers<double> centre = deviation_of(domain.centre);
+    const SixNumbers<double> centre = deviation_along(axes_, domain.centre);
     try {
       EvaluatedScene about;
       {

@@ -14,8 +14,8 @@ struct RefusedKey {
   std::string_view table;
   std::string_view key;
   std::vector<TransferThrust> thrusts;
-  bool
-      of_pairs;  ///< beside a table [assignment] alone, whose pairs have such a thrust and no other
+  /// Beside a table [assignment] alone, whose pairs have such a thrust and no other.
+  bool of_pairs;
   std::string_view reason;
   std::string_view right;
 };

@@ -75,6 +75,12 @@ ArrivalState read_arrival(const TableReader& table, const Nominal& nominal);
 /// any time.
 RelativeState read_place(const TableReader& table, const Nominal& nominal);
 
+/// The value of a key of three standard deviations along the axes of a frame, and its numbers, each
+/// from 0 to below the limit, which may be infinite; `of_limit` goes on in the message about one that is not.
+ValueForm deviations_form();
+std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
+                                    std::string_view of_limit);
+
 /// The start of the scene's deputy in the frame of another table.
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame);

@@ -328,6 +328,24 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal) {
   return read_along_axes(table, nominal);
 }
 
+ValueForm deviations_form() {
+  return form::words("array of 3, each 0 or above", form::array(form::number(), 3));
+}
+
+std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
+                                    std::string_view of_limit) {
+  std::vector<double> deviations = table.numbers(key, 3);
+  for (std::size_t i = 0; i < deviations.size(); ++i) {
+    if (deviations[i] >= 0 && deviations[i] < limit) continue;
+    const std::string below =
+        std::isfinite(limit) ? fmt::format(" to below {:.4g}, {}", limit, of_limit) : "";
+    table.fail_element(
+        key, i,
+        fmt::format("no standard deviation, got {}, must be from 0{}", deviations[i], below));
+  }
+  return deviations;
+}
+
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,
                              const DeputySettings& deputy, RelativeFrame frame) {
   if (deputy.frame == frame) return deputy.start;

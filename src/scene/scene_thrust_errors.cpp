@@ -1,6 +1,7 @@
-#include <fmt/format.h>
+#include <limits>
 
 #include "scene_lasting_thrust.hpp"
+#include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
 namespace {
@@ -11,26 +12,19 @@ constexpr double largest_error_seed = 1e15;
 
 Eigen::Vector3d navigation_deviations(const TableReader& errors, std::string_view key) {
   if (!errors.has(key)) return Eigen::Vector3d::Zero();
-  const std::vector<double> given = errors.numbers(key, 3);
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i] >= 0) continue;
-    errors.fail_element(key, i,
-                        fmt::format("no standard deviation, got {}, must be from 0", given[i]));
-  }
-  return {given[0], given[1], given[2]};
+  return Eigen::Vector3d(
+      read_deviations(errors, key, std::numeric_limits<double>::infinity(), "").data());
 }
 
 }  // namespace
 
 const TableDescription& thrust_errors_table() {
   static const ThrustErrorSettings preset;
-  const auto deviations =
-      form::words("array of 3, each 0 or above", form::array(form::number(), 3));
   static const TableDescription table = {
-      {{"position_m", deviations, absent::other("0"),
+      {{"position_m", deviations_form(), absent::other("0"),
         "standard deviations, along the axes of the frame, of the deputy's place that its "
         "controller believes"},
-       {"velocity_m_s", deviations, absent::other("0"), "likewise of its velocity"},
+       {"velocity_m_s", deviations_form(), absent::other("0"), "likewise of its velocity"},
        {"magnitude", form::between(0, 1), absent::value(preset.magnitude),
         "standard deviation of the thrust's size, as a share of the size"},
        {"direction_deg", form::between(0, 90), absent::value(preset.direction_deg),

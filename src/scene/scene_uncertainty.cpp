@@ -37,10 +37,6 @@ std::vector<SceneKey> covariance_frame_keys(const Absence& frame) {
   return keys;
 }
 
-const auto deviations_form = [] {
-  return form::words("array of 3, each 0 or above", form::array(form::number(), 3));
-};
-
 /// The keys of read_state_uncertainty.
 std::vector<SceneKey> state_uncertainty_keys() {
   return {{"position_m", deviations_form(), absent::other("0, or another form of the covariance"),
@@ -107,19 +103,6 @@ const TableDescription& burn_table() {
       "Execution errors, after Gates, of the deputy's burn, or of the chief's in a scene without "
       "one; linear in the errors."};
   return table;
-}
-
-std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
-                                    std::string_view what) {
-  std::vector<double> deviations = table.numbers(key, 3);
-  for (std::size_t i = 0; i < deviations.size(); ++i) {
-    if (deviations[i] >= 0 && deviations[i] < limit) continue;
-    table.fail_element(key, i,
-                       fmt::format("no standard deviation, got {}, must be from 0 to below {:.4g}, "
-                                   "{}",
-                                   deviations[i], limit, what));
-  }
-  return deviations;
 }
 
 /// Above these limits an expansion about the chief is meaningless, and a unit is most likely wrong.

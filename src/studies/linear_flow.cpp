@@ -41,7 +41,8 @@ LinearArc arc_of(const ComputedProblem& problem, double time, const FlowJet<doub
 
 /// Whether there is a time within a flow at which the forces have no derivatives.
 bool passes_break(const DynamicalSystem& system, const ClockTime& start_time, double duration) {
-  return StepEnds<double>(system, start_time, duration).after(0) != duration;
+  return !system.break_times.empty() &&
+         StepEnds<double>(system, start_time, duration).after(0) != duration;
 }
 
 /// The flow after each of a number of equal steps, of which each is one of the integration; empty

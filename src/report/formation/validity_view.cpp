@@ -10,7 +10,6 @@
 #include "transfer_view.hpp"
 
 namespace hamjet::io {
-
 namespace {
 
 /// The orders at the last time whose search for a reach ended without an answer.
@@ -25,24 +24,6 @@ std::string unsettled_text(const ValidityResult& result) {
       "were found again and again, so that 0 m says nothing there.",
       fmt::join(orders, ", "));
 }
-
-}  // namespace
-
-std::string unproved_text(const ValidityResult& result) {
-  const std::vector<ValidityEntry>& entries = result.points.back().entries;
-  const bool is_one_unproved = std::any_of(
-      entries.begin(), entries.end(),
-      [](const ValidityEntry& entry) { return entry.proved_m == 0 && !entry.is_unsettled; });
-  if (!is_one_unproved) return unsettled_text(result);
-  return unsettled_text(result) +
-         fmt::format(
-             " 0 m: no separation could be proved, because those deputies missed by more than the "
-             "tolerance however near they were. The flights themselves are right to {}; a finer "
-             "integrator, or a larger tolerance, may prove some.",
-             length_text(result.flight_floor_m));
-}
-
-namespace {
 
 /// How many domains the set takes that the scene asks about, as a sentence after a space.
 std::string domains_text(const ValidityResult& result) {
@@ -64,6 +45,20 @@ std::string domains_text(const ValidityResult& result) {
 }
 
 }  // namespace
+
+std::string unproved_text(const ValidityResult& result) {
+  const std::vector<ValidityEntry>& entries = result.points.back().entries;
+  const bool is_one_unproved = std::any_of(
+      entries.begin(), entries.end(),
+      [](const ValidityEntry& entry) { return entry.proved_m == 0 && !entry.is_unsettled; });
+  if (!is_one_unproved) return unsettled_text(result);
+  return unsettled_text(result) +
+         fmt::format(
+             " 0 m: no separation could be proved, because those deputies missed by more than the "
+             "tolerance however near they were. The flights themselves are right to {}; a finer "
+             "integrator, or a larger tolerance, may prove some.",
+             length_text(result.flight_floor_m));
+}
 
 std::string validity_verdict(const ValidityResult& result) {
   if (result.points.empty()) return "No time was examined.";

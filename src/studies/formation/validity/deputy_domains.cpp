@@ -17,13 +17,6 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-SixNumbers<double> deviation_along(const Matrix6& axes, const std::vector<double>& point,
-                                   const std::vector<double>& centre) {
-  const Vector6 z =
-      axes * (Eigen::Map<const Vector6>(point.data()) - Eigen::Map<const Vector6>(centre.data()));
-  return {z[0], z[1], z[2], z[3], z[4], z[5]};
-}
-
 /// The splitting of one set.
 class SplitValidity {
  public:
@@ -83,13 +76,12 @@ class SplitValidity {
   static constexpr int points_per_sample = 25;
 
   void fly() {
-    const std::vector<double> origin(6, 0.0);
     for (std::size_t k = 0; k < points_.size(); ++k) {
       if (progress_) {
         progress_("domains", static_cast<double>(k) / static_cast<double>(points_.size()));
       }
       std::vector<double> deputy = problem_.nominal;
-      const SixNumbers<double> start = deviation_along(axes_, points_[k], origin);
+      const SixNumbers<double> start = deviation_along(axes_, points_[k]);
       for (std::size_t i = 0; i < 6; ++i) deputy[i] += start[i];
       try {
         ends_.push_back(exact_flow(problem_.system, deputy, problem_.start_time, time_));
@@ -103,8 +95,7 @@ class SplitValidity {
   PointAssessment assess(const PointDomain& domain) {
     if (progress_) progress_("domains", 1);
     Scene about = scene_;
-    const SixNumbers<double> moved =
-        deviation_along(axes_, domain.centre, std::vector<double>(6, 0.0));
+    const SixNumbers<double> moved = deviation_along(axes_, domain.centre);
     for (std::size_t i = 0; i < 6; ++i) about.nominal[i] += moved[i];
     std::unique_ptr<DeputyFlow> flow;
     try {
@@ -149,6 +140,13 @@ class SplitValidity {
 };
 
 }  // namespace
+
+SixNumbers<double> deviation_along(const Matrix6& axes, const std::vector<double>& point,
+                                   const std::vector<double>& centre) {
+  const Vector6 z =
+      axes * (Eigen::Map<const Vector6>(point.data()) - Eigen::Map<const Vector6>(centre.data()));
+  return {z[0], z[1], z[2], z[3], z[4], z[5]};
+}
 
 std::vector<double> domain_weights(const DeputyFlow& flow, int degree, const Matrix6& axes,
                                    const PointDomain& domain,

@@ -11,6 +11,10 @@
 
 namespace hamjet {
 
+/// The canonical deviation (dq, dp) of a point from a centre, both along the columns of `axes`.
+SixNumbers<double> deviation_along(const Matrix6& axes, const std::vector<double>& point,
+                                   const std::vector<double>& centre = std::vector<double>(6, 0));
+
 /// How much of what the highest degree adds at some of a domain's points is of each coordinate, by
 /// the derivative along it: by Euler's theorem they add up to the degree times the whole. The flow
 /// is about the domain's centre; coordinates are along the columns of `axes`, which have one unit.
