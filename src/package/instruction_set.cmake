@@ -1,5 +1,6 @@
-# The instruction set that the library is compiled for, as the compiler's flags have it, and the
-# layout of vectors and matrices that follows from it.
+# The instruction set that the library is compiled for, as the compiler's flags have it, the
+# layout of vectors and matrices that follows from it, and the kind of extended precision.
+include(CheckCXXSourceCompiles)
 include(CheckTypeSize)
 
 # Flag and macro of each instruction set by which the vectors of <experimental/simd> and of Eigen
@@ -7,6 +8,33 @@ include(CheckTypeSize)
 set(HAMJET_INSTRUCTION_SETS
   avx=__AVX__ avx2=__AVX2__ fma=__FMA__ avx512f=__AVX512F__ avx512dq=__AVX512DQ__
   avx512bw=__AVX512BW__ avx512vl=__AVX512VL__)
+
+# Sets HAMJET_BINARY128 to whether the compiler has numbers of 128 bits, with their library and its
+# header. clang++ looks for the header where it is told, at HAMJET_QUADMATH: it belongs to g++.
+function(hamjet_find_binary128)
+  file(GLOB folders /usr/lib/gcc/*/*/include)
+  find_path(HAMJET_QUADMATH quadmath.h HINTS ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES} PATHS ${folders})
+  set(CMAKE_REQUIRED_FLAGS "-std=c++20")
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND HAMJET_QUADMATH)
+    string(APPEND CMAKE_REQUIRED_FLAGS " -idirafter ${HAMJET_QUADMATH}")
+  endif()
+  set(CMAKE_REQUIRED_LIBRARIES quadmath)
+  set(CMAKE_REQUIRED_QUIET ON)
+  check_cxx_source_compiles("extern \"C\" {
+#include <quadmath.h>
+}
+int main(int n, char**) { return static_cast<int>(sinq(static_cast<__float128>(n))); }"
+    HAMJET_BINARY128)
+endfunction()
+
+# Gives a target, and whoever links with it, what extended precision needs.
+function(hamjet_use_binary128 target)
+  if(HAMJET_BINARY128)
+    target_compile_options(${target} PUBLIC
+      $<$<COMPILE_LANG_AND_ID:CXX,Clang>:SHELL:-idirafter ${HAMJET_QUADMATH}>)
+    target_link_libraries(${target} PUBLIC quadmath)
+  endif()
+endfunction()
 
 # Writes the header instruction_set.hpp into `directory` for code that is compiled with `flags`
 # (a list) besides those of the configuration. Sets HAMJET_INSTRUCTION_SET_FLAGS, the explicit flags
@@ -53,6 +81,7 @@ HAMJET EIGEN_DEFAULT_ALIGN_BYTES EIGEN_MAX_STATIC_ALIGN_BYTES EIGEN_MALLOC_ALREA
   set(HAMJET_EIGEN_ALIGNMENT ${CMAKE_MATCH_1})
   set(HAMJET_EIGEN_STATIC_ALIGNMENT ${CMAKE_MATCH_2})
   set(HAMJET_EIGEN_USES_MALLOC ${CMAKE_MATCH_3})
+  hamjet_find_binary128()
 
   # Kept by flags, for a build directory may be configured again with others.
   string(MD5 key "${all_flags}")

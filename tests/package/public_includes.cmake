@@ -2,7 +2,7 @@
 # Eigen, and Boost.Multiprecision; or Eigen or vectors without the check that the user's flags agree
 # with the library's.
 set(allowed "<[a-z_]+>|<experimental/simd>|<Eigen/(Core|LU)>"
-  "<boost/multiprecision/(cpp_bin_float|eigen)[.]hpp>|[<\"]hamjet/[a-z_/]+[.]hpp[>\"]")
+  "<boost/multiprecision/(cpp_bin_float|float128|eigen)[.]hpp>|[<\"]hamjet/[a-z_/]+[.]hpp[>\"]")
 string(JOIN "|" allowed ${allowed})
 
 file(GLOB_RECURSE headers ${INCLUDE_DIR}/hamjet/*.hpp)
