@@ -61,7 +61,7 @@ system=$(grep '^/usr/' <<<"$headers" | grep -vE \
 
 # Libraries.
 libraries=$(readelf -d hamjet | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
-others=$(grep -vE '^(lib(fmt|tomlplusplus|Clp|erfa|stdc\+\+|m|gcc_s|c|asan|ubsan)\.so|ld-linux)' \
+others=$(grep -vE '^(lib(fmt|tomlplusplus|Clp|erfa|quadmath|stdc\+\+|m|gcc_s|c|asan|ubsan)\.so|ld-linux)' \
   <<<"$libraries" || true)
 [ -z "$others" ] || fail "the program loads something optional: $others"
 
