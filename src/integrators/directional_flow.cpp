@@ -38,8 +38,10 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
   const double scale = field_->momentum_scale(state, problem.start_time);
   const std::vector<double> gradient = field_->energy_gradient(state, problem.start_time);
   const auto along_field = [&](std::size_t v) {
-    return v < n ? gradient[n + v] : -gradient[v - n];
+    return v < n ? gradient[n + v] : v < 2 * n ? -gradient[v - n] : 0;
   };
+  const double of_parameters = std::cbrt(scale * scale);  // in_momentum_unit
+  const auto unit = [&](std::size_t v) { return v < n ? 1 : v < 2 * n ? scale : of_parameters; };
   std::mt19937_64 generator(1);
   for (std::size_t j = 0; j < count; ++j) {
     std::vector<Real>& direction = directions_.emplace_back();
@@ -47,7 +49,7 @@ DirectionalFlow<Real>::DirectionalFlow(const FlowProblem<Real>& problem, std::si
       double size = signed_size(generator);
       const double sign = j == 0 ? gradient[v] : (j == 1 ? along_field(v) : 0);
       if (sign != 0) size = std::copysign(size, sign);
-      direction.emplace_back(v < n ? size : size * scale);
+      direction.emplace_back(size * unit(v));
     }
   }
   starts_ = restrict(starting_jet(problem));
@@ -98,7 +100,7 @@ std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& line
     double difference = 0;
     double size = 0;
     for (std::size_t j = 0; j < lines.size(); ++j) {
-      for (std::size_t i = 0; i < lines[j].size(); ++i) {
+      for (std::size_t i = 0; i < 2 * n; ++i) {
         const double unit = i < n ? 1 : 1 / scale;
         const Real& wanted = reference[j][i][d];
         const double miss = unit * std::abs(static_cast<double>(Real(lines[j][i][d] - wanted)));

@@ -36,8 +36,7 @@ std::vector<Direction<Real>> known_directions(const FlowProblem<Real>& problem,
     std::vector<Real> entries = one.direction;
     double logarithms = 0;
     for (std::size_t v = 0; v < entries.size(); ++v) {
-      if (problem.variables[v] >= n && problem.variables[v] < 2 * n)
-        entries[v] *= Real(std::ldexp(1.0, -exponent));
+      entries[v] *= Real(std::ldexp(1.0, -exponent_of_variable(problem.variables[v], n, exponent)));
       logarithms += std::log(std::abs(static_cast<double>(entries[v])));
     }
     const double length = std::exp(logarithms / static_cast<double>(entries.size()));
@@ -79,8 +78,8 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   if (problem.duration == 0) return result;
   const int exponent = settings.momentum_exponent;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const FlowJet<Real> jet =
-      in_momentum_unit(delivered, problem.variables, problem.system->degrees_of_freedom, exponent);
+  const FlowJet<Real> jet = compared_components(delivered, problem.variables,
+                                                problem.system->degrees_of_freedom, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
   const Directions<Real> drawn = choose_directions(jet, line, largest, directions_of_runs[0]);
   // Steps that were chosen along the known lines are also judged along other lines.
@@ -90,8 +89,8 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   if (!taken.empty()) {
     std::vector<double> shown(degrees, 0);
     for (std::size_t k = 0; k < taken.size(); ++k) {
-      const FlowJet<Real> run = in_momentum_unit(known[k].jet, variable_of_line,
-                                                 problem.system->degrees_of_freedom, exponent);
+      const FlowJet<Real> run = compared_components(known[k].jet, variable_of_line,
+                                                    problem.system->degrees_of_freedom, exponent);
       include_known(shown, taken[k], run, largest);
       include_nominals(shown, first[0], run, largest[0]);
     }
@@ -126,7 +125,7 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
   for (const FlowJet<Real>& jet : delivered) {
     require_jet_of(problem, jet);
     jets.push_back(
-        in_momentum_unit(jet, problem.variables, problem.system->degrees_of_freedom, exponent));
+        compared_components(jet, problem.variables, problem.system->degrees_of_freedom, exponent));
     largest.push_back(largest_by_degree(jets.back()));
   }
   std::vector<FlowJet<Real>> first(

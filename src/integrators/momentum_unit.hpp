@@ -41,12 +41,28 @@ inline std::vector<std::size_t> kinds_of_variables(std::span<const std::size_t> 
   return result;
 }
 
+/// The binary exponent of 1/r for that of r^(-3/2), natural_momentum_exponent.
+inline int parameter_exponent(int momentum_exponent) {
+  return static_cast<int>(std::lround(momentum_exponent / 1.5));
+}
+
+/// The binary exponent of the unit of the variable with an index in z = (q, p, c).
+inline int exponent_of_variable(std::size_t index, std::size_t degrees_of_freedom,
+                                int momentum_exponent) {
+  if (index < degrees_of_freedom) return 0;
+  return index < 2 * degrees_of_freedom ? momentum_exponent : parameter_exponent(momentum_exponent);
+}
+
 /// A jet with its momenta, both components and variables, in units of 2^exponent, so that nothing
 /// is rounded. Coefficients of one degree are compared with each other, but those of positions and
 /// momenta have different units: without a common unit, the largest one would depend on the unit of
 /// length. `variables` has the index in z = (q, p, c) of each variable, where q are the first
-/// `degrees_of_freedom` numbers; parameters c keep their units. A negative exponent undoes a
-/// positive one.
+/// `degrees_of_freedom` numbers. A negative exponent undoes a positive one.
+///
+/// Coefficients of degree d in units of the orbit's distance r are r^(d-1) times those in the
+/// canonical unit; a factor that all have alike changes no comparison, but those of k parameters
+/// have r^(d-k-1). Parameters as variables are therefore in units of 1/r, see parameter_exponent;
+/// as components they keep their units.
 template <class Real>
 FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> variables,
                                std::size_t degrees_of_freedom, int exponent) {
@@ -55,15 +71,25 @@ FlowJet<Real> in_momentum_unit(FlowJet<Real> jet, std::span<const std::size_t> v
   const auto is_momentum = [n](std::size_t index) { return index >= n && index < 2 * n; };
   const SeriesSpace& space = jet[0].space();
   for (std::size_t k = 0; k < space.size(); ++k) {
-    int momenta = 0;
+    int of_variables = 0;
     for (std::size_t v = 0; v < variables.size(); ++v) {
-      if (is_momentum(variables[v])) momenta += space.exponents(k)[v];
+      of_variables += space.exponents(k)[v] * exponent_of_variable(variables[v], n, exponent);
     }
     for (std::size_t c = 0; c < jet.size(); ++c) {
-      jet[c][k] *= Real(std::ldexp(1.0, exponent * (momenta - (is_momentum(c) ? 1 : 0))));
+      jet[c][k] *= Real(std::ldexp(1.0, of_variables - (is_momentum(c) ? exponent : 0)));
     }
   }
   return jet;
+}
+
+/// The same of the positions and momenta alone: parameters are kept by a flow without an error, and
+/// have no unit in which they could be compared.
+template <class Real>
+FlowJet<Real> compared_components(FlowJet<Real> jet, std::span<const std::size_t> variables,
+                                  std::size_t degrees_of_freedom, int exponent) {
+  const auto all = static_cast<std::ptrdiff_t>(std::min(jet.size(), 2 * degrees_of_freedom));
+  jet.erase(jet.begin() + all, jet.end());
+  return in_momentum_unit(std::move(jet), variables, degrees_of_freedom, exponent);
 }
 
 /// The same conversion for a linear map of z = (q, p), with an even number of rows and columns.

@@ -46,8 +46,8 @@ std::vector<double> sample_rounding(
   require_jet_of(problem, delivered);
   const int exponent = settings.momentum_exponent;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
-  const FlowJet<Real> jet =
-      in_momentum_unit(delivered, problem.variables, problem.system->degrees_of_freedom, exponent);
+  const FlowJet<Real> jet = compared_components(delivered, problem.variables,
+                                                problem.system->degrees_of_freedom, exponent);
   const std::vector<double> largest = largest_by_degree(jet);
   Directions<Real> unmoved = choose_directions(jet, line, largest, directions_of_runs[0]);
   std::vector<std::vector<FlowJet<Real>>> moved(rounding_samples);
@@ -58,8 +58,8 @@ std::vector<double> sample_rounding(
     const FlowProblem<Real> along = problem_along(problem, direction.entries, exponent);
     const auto run = [&](const FlowProblem<Real>& start) {
       if (settings.progress) settings.progress(done++ / runs);
-      return in_momentum_unit(integrate(start), variable_of_line,
-                              problem.system->degrees_of_freedom, exponent);
+      return compared_components(integrate(start), variable_of_line,
+                                 problem.system->degrees_of_freedom, exponent);
     };
     direction.jet = run(along);
     for (std::vector<FlowJet<Real>>& sample : moved) {

@@ -51,8 +51,7 @@ FlowProblem<Real> problem_along(const FlowProblem<Real>& problem,
   const std::size_t n = problem.system->degrees_of_freedom;
   std::vector<Real> entries = direction;
   for (std::size_t v = 0; v < entries.size(); ++v) {
-    const bool is_momentum = problem.variables[v] >= n && problem.variables[v] < 2 * n;
-    if (is_momentum) entries[v] *= Real(std::ldexp(1.0, exponent));
+    entries[v] *= Real(std::ldexp(1.0, exponent_of_variable(problem.variables[v], n, exponent)));
   }
   return {problem.system,
           line,
@@ -105,14 +104,15 @@ StepObserver<Real> observer_of_run(const Real& duration, std::size_t number,
   };
 }
 
-/// The jets along the directions that a run has reached, in the estimate's unit of momentum.
+/// The jets along the directions that a run has reached, in the estimate's unit of momentum and
+/// without parameters.
 template <class Real>
 std::vector<FlowJet<Real>> lines_of_run(const FlowJet<Real>& run, std::size_t degrees_of_freedom,
                                         const ErrorEstimateSettings& settings) {
   std::vector<FlowJet<Real>> lines = line_by_line(run);
   for (FlowJet<Real>& line : lines) {
-    line = in_momentum_unit(std::move(line), variable_of_line, degrees_of_freedom,
-                            settings.momentum_exponent);
+    line = compared_components(std::move(line), variable_of_line, degrees_of_freedom,
+                               settings.momentum_exponent);
   }
   return lines;
 }

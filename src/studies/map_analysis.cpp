@@ -115,13 +115,13 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
 }
 
 void MapAnalysis::analyse(RunResult& run) {
-  const FlowJet<Extended> comparable = in_momentum_unit(
-      run.jet, problem_.variables, problem_.degrees_of_freedom.size(), problem_.momentum_exponent);
+  const auto compared = [&](const FlowJet<Extended>& jet) {
+    return compared_components(jet, problem_.variables, problem_.degrees_of_freedom.size(),
+                               problem_.momentum_exponent);
+  };
+  const FlowJet<Extended> comparable = compared(run.jet);
   if (reference_) {
-    run.error_by_degree =
-        relative_error_by_degree(comparable, in_momentum_unit(reference_->jet, problem_.variables,
-                                                              problem_.degrees_of_freedom.size(),
-                                                              problem_.momentum_exponent));
+    run.error_by_degree = relative_error_by_degree(comparable, compared(reference_->jet));
     run.position_error_m =
         position_distance(run.jet, reference_->jet, problem_.degrees_of_freedom.size()) *
         scene_.units.length_km * 1000;

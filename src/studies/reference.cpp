@@ -81,8 +81,8 @@ ReferenceResult compute_reference(const ComputedProblem& problem, double duratio
     throw;
   }
   const auto comparable = [&](const FlowJet<Extended>& jet) {
-    return in_momentum_unit(jet, problem.variables, problem.system->degrees_of_freedom,
-                            problem.momentum_exponent);
+    return compared_components(jet, problem.variables, problem.system->degrees_of_freedom,
+                               problem.momentum_exponent);
   };
   result.uncertainty_by_degree =
       relative_error_by_degree(comparable(coarse.get()), comparable(result.jet));

@@ -38,13 +38,15 @@ class StageElimination {
   }
 
   /// Replaces the columns R by M^-1 R, without pivoting if the matrix is dominated by its diagonal.
-  /// Returns false if the matrix is singular or not finite.
-  bool solve(std::initializer_list<std::span<P>> columns, bool is_dominant) {
+  /// Pivots are compared in units of the components, whose inverses are given. Returns false if the
+  /// matrix is singular or not finite.
+  bool solve(std::initializer_list<std::span<P>> columns, bool is_dominant,
+             std::span<const Real> inverse_units) {
     if (is_dominant) {
       eliminate_in_order(columns);
       return true;
     }
-    if (!eliminate(columns)) return false;
+    if (!eliminate(columns, inverse_units)) return false;
     for (const std::span<P>& of : columns) undo_pivoting(of);
     return true;
   }
@@ -61,14 +63,15 @@ class StageElimination {
 
   /// The pivot row: the diagonal unless another entry is ten times larger (threshold pivoting, by
   /// which the order of rows rarely changes).
-  std::optional<std::size_t> choose_pivot(std::size_t column) const {
+  std::optional<std::size_t> choose_pivot(std::size_t column,
+                                          std::span<const Real> inverse_units) const {
     const P* m = &matrix_[column * components_];
     std::size_t best = pivot_row_.size();
     Real largest = 0;
     std::size_t row = 0;
     for (std::size_t c = 0; c < components_; ++c) {
       for (std::size_t i = 0; i < stages_; ++i, ++row) {
-        const Real value = magnitude(m[c].lane(static_cast<int>(i)));
+        const Real value = magnitude(Real(m[c].lane(static_cast<int>(i)) * inverse_units[c]));
         if (!(value <= largest) && !used_[row]) {
           largest = value;
           best = row;
@@ -76,15 +79,16 @@ class StageElimination {
       }
     }
     if (best == pivot_row_.size() || !is_finite(largest)) return std::nullopt;
-    if (!used_[column] && 10 * magnitude(row_of(m, column)) >= largest) best = column;
+    const Real diagonal = magnitude(Real(row_of(m, column) * inverse_units[column / stages_]));
+    if (!used_[column] && 10 * diagonal >= largest) best = column;
     return best;
   }
 
   /// Each row is divided by its pivot and subtracted from all others.
-  bool eliminate(const Columns& columns) {
+  bool eliminate(const Columns& columns, std::span<const Real> inverse_units) {
     std::fill(used_.begin(), used_.end(), false);
     for (std::size_t r = 0; r < pivot_row_.size(); ++r) {
-      const auto pivot = choose_pivot(r);
+      const auto pivot = choose_pivot(r, inverse_units);
       if (!pivot) return false;
       pivot_row_[r] = *pivot;
       used_[*pivot] = true;

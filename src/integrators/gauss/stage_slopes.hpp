@@ -207,10 +207,8 @@ class StageSlopes {
     evaluator_.evaluate_constant_terms();
     ++statistics.nominal_evaluations;
     if (system_.second_order()) return;
-    const GradientBlocks<P> blocks = gradient_blocks();
-    inverse_sigma_ = GradientBlocks<Real>{Real(0), largest_magnitude(blocks.velocity),
-                                          largest_magnitude(blocks.force)}
-                         .inverse_sigma();
+    inverse_sigma_ = units_.template inverse_sigma<Real, P>(
+        [this](std::size_t c, std::size_t k) { return slope_gradient(c, k); });
   }
 
   const ComponentUnits& units() const { return units_; }

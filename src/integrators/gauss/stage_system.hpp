@@ -11,6 +11,7 @@
 
 #include "../real_number.hpp"
 #include "hamjet/detail/algebra/pack.hpp"
+#include "component_units.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "stage_coefficients.hpp"
 #include "stage_elimination.hpp"
@@ -47,6 +48,8 @@ class StageSystem {
         state_size_(system.dimension()),
         coefficients_(StageCoefficients<Real, Lanes>::of(tableau)),
         coupling_(second_order_ ? coefficients_.squared : coefficients_.matrix),
+        units_(system),
+        inverse_units_(components_, Real(1)),
         elimination_(components_, stages_) {
     if (second_order_) {
       for (const Extended& x : system.second_order->inverse_mass) {
@@ -148,6 +151,10 @@ class StageSystem {
   /// Returns false if the matrix is singular or not finite.
   template <class Gradient>
   bool factorise(const Gradient& gradient, Response response) {
+    const Real inverse_sigma = units_.template inverse_sigma<Real, P>(gradient);
+    for (std::size_t c = 0; c < units_.count(); ++c) {
+      inverse_units_[c] = units_.inverse_unit(c, inverse_sigma);
+    }
     const bool is_dominant = has_dominant_diagonal(gradient);
     end_follows_from_base_ =
         response != Response::left_out && is_dominant && is_symmetric(gradient);
@@ -155,7 +162,7 @@ class StageSystem {
                               (response == Response::for_end_map && !end_follows_from_base_);
     fill(gradient, has_response);
     const std::span<P> response_columns(response_.data(), has_response ? response_.size() : 0);
-    return elimination_.solve({response_columns, base_}, is_dominant);
+    return elimination_.solve({response_columns, base_}, is_dominant, inverse_units_);
   }
   /// Whether the effect of forces at the stages on the end of the step follows from B, see EndMap,
   /// for the matrix that was last factorised for remainders. This is so if Dg is symmetric, as for
@@ -175,8 +182,9 @@ class StageSystem {
     return sum;
   }
 
-  /// Whether the magnitudes of every row of W (x) Dg add up to at most 1/2, as in all steps that
-  /// converge well. The matrix I - W (x) Dg is then dominated by its diagonal, by at least 1/2 in
+  /// Whether the magnitudes of every row of W (x) Dg, in ComponentUnits, add up to at most 1/2, as in
+  /// all steps that converge well. Parameters are at rest: their columns are those of the identity
+  /// but for what they add to other rows, and need no pivots. The matrix I - W (x) Dg is then dominated by its diagonal, by at least 1/2 in
   /// every row. So is the rest of the matrix after some pivots, whose blocks have inverses of at
   /// most 2 in the maximum norm (Varah, Linear Algebra Appl. 11 (1975) 3). Elimination needs no
   /// pivoting, not even by blocks (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
@@ -184,11 +192,12 @@ class StageSystem {
   template <class Gradient>
   bool has_dominant_diagonal(const Gradient& gradient) const {
     P largest(Real(0));
-    for (std::size_t c = 0; c < components_; ++c) {
+    for (std::size_t c = 0; c < units_.count(); ++c) {
       P sum(Real(0));
       P entries(Real(0));
-      for (std::size_t from = 0; from < components_; ++from) {
-        entries += larger_magnitude(P(Real(0)), gradient(c, from));
+      for (std::size_t from = 0; from < units_.count(); ++from) {
+        entries += larger_magnitude(
+            P(Real(0)), gradient(c, from) * P(Real(inverse_units_[c] / inverse_units_[from])));
       }
       for (std::size_t j = 0; j < stages_; ++j) {
         sum +=
@@ -256,6 +265,8 @@ class StageSystem {
   Real step_ = 0;
   Real scale_ = 0;
   std::vector<Real> inverse_mass_;
+  ComponentUnits units_;
+  std::vector<Real> inverse_units_;  ///< of the components, for the gradients of the present step
   StageElimination<Real, Lanes> elimination_;  ///< elimination of I - W (x) Dg
   std::vector<P> response_;
   std::vector<P> base_;

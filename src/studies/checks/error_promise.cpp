@@ -53,8 +53,9 @@ std::vector<double> half_ulp_changes(const Scene& scene, const RunResult& run) {
 FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
   const std::size_t of_model = degrees_of_freedom_of(scene.system);
   const std::size_t of_jet = (run.jet.size() - (scene.nominal.size() - 2 * of_model)) / 2;
-  return in_momentum_unit(run.jet, kinds_of_variables(scene.variables, of_model, of_jet), of_jet,
-                          natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal));
+  return compared_components(
+      run.jet, kinds_of_variables(scene.variables, of_model, of_jet), of_jet,
+      natural_momentum_exponent(is_orbit(scene.system.model), scene.nominal));
 }
 
 PromisedErrors promised_errors(const Scene& scene, const RunResult& run) {

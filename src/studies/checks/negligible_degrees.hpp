@@ -25,7 +25,7 @@ template <class Real>
 std::vector<double> shares_of_linear(const Scene& scene, const FlowProblem<Real>& flow,
                                      const FlowJet<Real>& jet, int momentum_exponent) {
   std::vector<double> shares = largest_by_degree(
-      in_momentum_unit(jet, flow.variables, flow.system->degrees_of_freedom, momentum_exponent));
+      compared_components(jet, flow.variables, flow.system->degrees_of_freedom, momentum_exponent));
   const double linear = shares.size() > 1 ? shares[1] : 0;
   const double size = size_of_nominal(scene);
   for (std::size_t d = 0; d < shares.size(); ++d) {

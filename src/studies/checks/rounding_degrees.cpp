@@ -62,11 +62,13 @@ FieldDegrees degrees_of_field(const Scene& scene, const DynamicalSystem& system,
     for (std::size_t i = 0; i < 2 * n; ++i) {
       for (std::size_t k = 0; k < space->size(); ++k) {
         const auto exponents = space->exponents(k);
-        int momenta = i < n ? 0 : -1;
-        for (std::size_t v = n; v < 2 * n; ++v) momenta += exponents[v];
+        int binary = i < n ? 0 : -exponent;
+        for (std::size_t v = 0; v < exponents.size(); ++v) {
+          binary += exponents[v] * exponent_of_variable(v, n, exponent);
+        }
         const Extended& right = precise.component(i)[k];
         const double difference = static_cast<double>(Extended(rounded.component(i)[k] - right));
-        const double unit = std::ldexp(1.0, exponent * momenta);
+        const double unit = std::ldexp(1.0, binary);
         const auto degree = static_cast<std::size_t>(space->degree(k));
         raise_to(result.sizes[degree], unit * std::abs(static_cast<double>(right)));
         raise_to(result.rounding[degree], unit * std::abs(difference));

@@ -123,14 +123,25 @@ std::vector<double> FlownDeputies::state(const SixNumbers<double>& deviation) co
   return deputy;
 }
 
-Vector6 FlownDeputies::error_of(std::span<const double> flown,
-                                const SixNumbers<double>& predicted) const {
+Vector6 FlownDeputies::error_of(DeputyPredictor& predictor, std::span<const double> flown,
+                                const SixNumbers<double>& start, int order) {
+  const SixNumbers<double> predicted = predictor.predict(start, order).deviation;
   Vector6 error;
   for (std::size_t i = 0; i < predicted.size(); ++i) {
-    error[static_cast<Eigen::Index>(i)] =
-        predictor_.flow().chief_end()[i] + predicted[i] - flown[i];
+    error[static_cast<Eigen::Index>(i)] = predictor.flow().chief_end()[i] + predicted[i] - flown[i];
   }
   return error;
+}
+
+DeputyPredictor& FlownDeputies::worse_of(std::span<const double> flown,
+                                         const SixNumbers<double>& start, int order) {
+  if (!again_) return predictor_;
+  const auto miss = [&](DeputyPredictor& one) {
+    return error_of(one, flown, start, order).head<3>().norm();
+  };
+  // A deputy without a place in the coordinates has a miss that is no number.
+  const double first = miss(predictor_);
+  return !std::isfinite(first) || miss(*again_) <= first ? predictor_ : *again_;
 }
 
 Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
@@ -143,7 +154,7 @@ Vector6 FlownDeputies::error(const Vector6& coordinates, int order) {
     if (error.kind() != ErrorKind::numerical) throw;
     return Vector6::Constant(infinity);
   }
-  return error_of(flown, predictor_.predict(start, order).deviation);
+  return error_of(worse_of(flown, start, order), flown, start, order);
 }
 
 double FlownDeputies::miss(const Vector6& coordinates, int order) {
@@ -172,17 +183,19 @@ Vector6 FlownDeputies::gradient(const Vector6& coordinates, int order, double st
       starts.push_back(deviation(coordinates + place * step * Vector6::Unit(i)));
     }
   }
+  const std::vector<double> end = nominal_of(flown);
+  DeputyPredictor& predictor = worse_of(end, starts[0], order);
   std::vector<DeputyPrediction> predicted(starts.size());
-  predictor_.predict(starts, order, predicted);
-  const Eigen::Vector3d error = error_of(nominal_of(flown), predicted[0].deviation).head<3>();
+  predictor.predict(starts, order, predicted);
+  const Eigen::Vector3d error = error_of(predictor, end, starts[0], order).head<3>();
   const double miss = error.norm();
   if (miss == 0) return Vector6::Zero();
   Vector6 result = -axes_.transpose() * linear_part(flown).topRows(3).transpose() * error / miss;
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t k = 0; k < std::size(places); ++k) {
-      const SixNumbers<double>& end = predicted[1 + std::size(places) * i + k].deviation;
+      const SixNumbers<double>& moved = predicted[1 + std::size(places) * i + k].deviation;
       result[static_cast<Eigen::Index>(i)] +=
-          weights[k] / (12 * step) * Eigen::Map<const Eigen::Vector3d>(end.data()).dot(error) /
+          weights[k] / (12 * step) * Eigen::Map<const Eigen::Vector3d>(moved.data()).dot(error) /
           miss;
     }
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -36,16 +37,24 @@ std::vector<Vector6> far_apart(const std::vector<Vector6>& directions);
 
 /// Deputies of one chief, flown to one time with the full equations, and their predictions by
 /// polynomials. A deputy is given by its coordinates along the columns of `axes`.
+///
+/// The polynomials may be given twice: with the degrees that foretell what an order neglects, and
+/// as others make them, without these and by steps of their own. Where a degree is rounding they
+/// differ by more than any tolerance, and what is told is the worse of both.
 class FlownDeputies {
  public:
-  /// All arguments must outlive this object; `before_flight` is called before each flight.
+  /// All arguments must outlive this object; `before_flight` is called before each flight. `again`
+  /// is the same flow once more, or null.
   FlownDeputies(const ComputedProblem& problem, const Matrix6& axes, double time,
-                const DeputyFlow& flow, std::function<void()> before_flight)
+                const DeputyFlow& flow, const DeputyFlow* again,
+                std::function<void()> before_flight)
       : problem_(problem),
         axes_(axes),
         time_(time),
         predictor_(flow),
-        before_flight_(std::move(before_flight)) {}
+        before_flight_(std::move(before_flight)) {
+    if (again != nullptr) again_.emplace(*again);
+  }
 
   /// The canonical deviation (dq, dp) of a deputy at the start.
   SixNumbers<double> deviation(const Vector6& coordinates) const;
@@ -55,7 +64,8 @@ class FlownDeputies {
   /// The distance in position of this difference; infinite if it is not finite.
   double miss(const Vector6& coordinates, int order);
   /// The derivative of the miss by the coordinates: of the flight by its linear flow, which costs
-  /// little more than the flight, and of the polynomials by differences over `step` to both sides.
+  /// little more than the flight, and of the worse polynomials by differences over `step` to both
+  /// sides.
   /// Not finite if the deputy cannot be flown or has no place in the coordinates.
   Vector6 gradient(const Vector6& coordinates, int order, double step);
 
@@ -83,13 +93,18 @@ class FlownDeputies {
   /// What the flow's degrees above an order add to the final positions of deputies.
   std::vector<Eigen::Vector3d> foretold_errors(std::span<const SixNumbers<double>> starts,
                                                int order);
-  /// The difference between the polynomials and a flown state.
-  Vector6 error_of(std::span<const double> flown, const SixNumbers<double>& predicted) const;
+  /// The difference between polynomials and a flown state.
+  static Vector6 error_of(DeputyPredictor& predictor, std::span<const double> flown,
+                          const SixNumbers<double>& start, int order);
+  /// The polynomials that miss a flown state by more.
+  DeputyPredictor& worse_of(std::span<const double> flown, const SixNumbers<double>& start,
+                            int order);
 
   const ComputedProblem& problem_;
   const Matrix6& axes_;
   double time_;
   DeputyPredictor predictor_;
+  std::optional<DeputyPredictor> again_;
   std::function<void()> before_flight_;
 };
 

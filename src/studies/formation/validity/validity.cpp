@@ -48,6 +48,7 @@ class ValidityStudy {
         progress_(progress),
         deeper_(with_further_degrees(scene)),
         problem_(make_problem(deeper_)),
+        own_problem_(make_problem(scene)),
         metres_(metric_units(scene).length_m),
         distance_(size_of_nominal(scene)),
         largest_separation_(largest_separation * distance_),
@@ -60,15 +61,23 @@ class ValidityStudy {
     const IntegratorSettings& integrator = symplectic_integrator(scene_);
     result_.integrator = integrator.label;
     result_.coordinates = coordinates;
+    const auto of_own_order = [&] {
+      return DeputyFlowPropagation(scene_, own_problem_, integrator, coordinates);
+    };
     DeputyFlowPropagation propagation(deeper_, problem_, integrator, coordinates);
+    DeputyFlowPropagation on_the_way = of_own_order();
     for (std::size_t index = 0; index < settings_.times.size(); ++index) {
       time_ = settings_.times[index];
       std::unique_ptr<DeputyFlow> flow;
+      std::unique_ptr<DeputyFlow> own;
       {
         const Stopwatch watch(result_.propagation_seconds);
         flow = propagation.advance_to(time_);
+        // At the last time the polynomials are those that a run makes, in one integration.
+        const bool is_last = index + 1 == settings_.times.size();
+        own = is_last ? of_own_order().advance_to(time_) : on_the_way.advance_to(time_);
       }
-      visit(index, propagation, *flow);
+      visit(index, propagation, *flow, *own);
     }
     return std::move(result_);
   }
@@ -102,7 +111,8 @@ class ValidityStudy {
     return direction;
   }
 
-  void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow) {
+  void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow,
+             const DeputyFlow& own) {
     ValidityPoint point;
     point.time = time_;
     SliceMaxima slices(flow, axes_);
@@ -118,7 +128,7 @@ class ValidityStudy {
         limit_coordinates(propagation, flow, settings_.frame, scene_.system);
     const std::vector<double> sizes = slice_sizes(slices, worst_of_degrees);
     double share = 0;  // fraction of the time's orders that are done
-    FlownDeputies deputies(problem_, axes_, time_, flow, [&] {
+    FlownDeputies deputies(problem_, axes_, time_, flow, &own, [&] {
       ++result_.flights;
       if (!progress_) return;
       progress_("validity",
@@ -285,6 +295,7 @@ class ValidityStudy {
   const ProgressCallback& progress_;
   Scene deeper_;  ///< with the degrees above the order that foretell what it neglects
   ComputedProblem problem_;
+  ComputedProblem own_problem_;  ///< of the scene's order
   double metres_;
   double distance_;                     ///< distance of the chief at the start, in canonical units
   double largest_separation_;           ///< in canonical units
