@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "../studies/earth_system.hpp"
+#include "../studies/harmonic_parameter.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_relative_motion.hpp"
@@ -69,6 +70,7 @@ std::vector<std::string> names_of_parameters(const SystemSettings& system) {
     for (const EarthParameter& parameter : earth_parameters()) {
       if (!parameter.missing || !parameter.missing(system)) add(parameter.name);
     }
+    names.push_back(HarmonicParameter::names_of_field(system.earth->degree, system.earth->order));
   }
   return names;
 }
@@ -130,8 +132,9 @@ const std::string& help_of_variables() {
     for (const EarthParameter& parameter : earth_parameters()) {
       words += fmt::format(" `{}`,", parameter.name);
     }
-    words.pop_back();
-    return words;
+    return words +
+           " coefficients of the field: `J2` and so on, not normalised, `C22`, `S31`, `C_10_3`, "
+           "normalised";
   }();
   return text;
 }

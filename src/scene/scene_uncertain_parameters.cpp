@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../studies/earth_system.hpp"
+#include "../studies/harmonic_parameter.hpp"
 #include "../text/scene_message.hpp"
 
 namespace hamjet::io {
@@ -16,30 +17,32 @@ constexpr std::string_view covariances_key = "parameter_covariances";
 /// For the difference of two spacecraft a quadrature takes 2 N + 1 nodes for each.
 constexpr std::size_t most_common = 3;
 
-std::string names_of_parameters() {
+std::string names_of_parameters(const EarthSettings& earth) {
   std::vector<std::string> names;
   for (const EarthParameter& parameter : earth_parameters()) names.push_back(parameter.name);
+  names.push_back(HarmonicParameter::names_of_field(earth.degree, earth.order));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
 /// The parameter of a key of `parameters`, whose force the scene has.
-const EarthParameter& parameter_of(const TableReader& parameters, const std::string& name,
-                                   const Scene& scene) {
+EarthParameter parameter_of(const TableReader& parameters, const std::string& name,
+                            const Scene& scene) {
   if (!scene.system.earth) {
     parameters.fail(name, fmt::format("of another model than earth, got {}, must be left out, or "
                                       "beside system.model = \"earth\"",
                                       parameters.found(name)));
   }
-  for (const EarthParameter& parameter : earth_parameters()) {
-    if (parameter.name != name) continue;
-    if (const auto force = parameter.missing ? parameter.missing(scene.system) : std::nullopt) {
-      parameters.fail(name, fmt::format("{}, got {}, must be left out, or {}", force->what,
-                                        parameters.found(name), force->right));
-    }
-    return parameter;
+  const std::optional<EarthParameter> parameter = earth_parameter(name);
+  if (!parameter || parameter->name != name) {
+    parameters.fail(name,
+                    fmt::format("no parameter of the forces, got {}, must be one of {}",
+                                parameters.found(name), names_of_parameters(*scene.system.earth)));
   }
-  parameters.fail(name, fmt::format("no parameter of the forces, got {}, must be one of {}",
-                                    parameters.found(name), names_of_parameters()));
+  if (const auto force = parameter->missing ? parameter->missing(scene.system) : std::nullopt) {
+    parameters.fail(name, fmt::format("{}, got {}, must be left out, or {}", force->what,
+                                      parameters.found(name), force->right));
+  }
+  return *parameter;
 }
 
 /// The value of a parameter of the forces on the chief, or on the deputy.
@@ -67,7 +70,7 @@ std::vector<UncertainParameter> read_parameters_of_forces(const TableReader& par
                                                           const Scene& scene, bool is_deputy) {
   std::vector<UncertainParameter> result;
   for (const std::string& name : parameters.keys()) {
-    const EarthParameter& parameter = parameter_of(parameters, name, scene);
+    const EarthParameter parameter = parameter_of(parameters, name, scene);
     const double deviation = parameters.number(name);
     if (deviation < 0) {
       parameters.fail(name,

@@ -19,6 +19,7 @@
 #include "hamjet/astronomy/earth_rotation.hpp"
 #include "hamjet/dynamics/earth_gravity.hpp"
 #include "hamjet/dynamics/spacecraft_forces.hpp"
+#include "harmonic_parameter.hpp"
 
 namespace hamjet {
 namespace {
@@ -45,10 +46,59 @@ constexpr std::string_view density_factor_name = "density_factor";
 constexpr std::string_view mu_name = "mu_km3_s2";
 constexpr std::array<std::string_view, 3> thrust_names = {"thrust_R_m_s2", "thrust_T_m_s2",
                                                           "thrust_N_m_s2"};
-/// The zonal coefficients that may be parameters.
-constexpr int highest_zonal_parameter = 6;
 
-std::string zonal_name(int n) { return fmt::format("J{}", n); }
+/// J_n = -sqrt(2n + 1) C_n0, by which a zonal coefficient loses its normalisation.
+double not_normalised(int n) { return -std::sqrt(2.0 * n + 1); }
+
+/// Why a coefficient is none of the scene's field.
+std::optional<MissingForce> beyond_field(const HarmonicParameter& harmonic,
+                                         const EarthSettings& earth) {
+  using Part = HarmonicParameter::Part;
+  const auto [part, n, m] = harmonic;
+  if (part != Part::J && m == 0) {
+    if (part == Part::S) return MissingForce{"always zero", "a coefficient of order 1 or more"};
+    const std::string zonal = HarmonicParameter{Part::J, n, 0}.name();
+    return MissingForce{"zonal", fmt::format("{}, which is -sqrt({}) times it", zonal, 2 * n + 1)};
+  }
+  if (m > n) {
+    return MissingForce{fmt::format("of order {} above its degree {}", m, n),
+                        "a coefficient of at most the order of its degree"};
+  }
+  if (n < ZonalCoefficients::lowest) {
+    return MissingForce{"0 about the centre of mass", "a coefficient of degree 2 or more"};
+  }
+  if (n > earth.degree) {
+    return MissingForce{fmt::format("beyond the field of degree {}", earth.degree),
+                        fmt::format("beside gravity_degree = {} or more", n)};
+  }
+  if (m > earth.order) {
+    return MissingForce{fmt::format("beyond the field of order {}", earth.order),
+                        fmt::format("beside gravity_order = {} or more", m)};
+  }
+  return std::nullopt;
+}
+
+EarthParameter parameter_of(const HarmonicParameter& harmonic) {
+  const auto [part, n, m] = harmonic;
+  EarthParameter parameter;
+  parameter.name = harmonic.name();
+  parameter.missing = [harmonic](const SystemSettings& s) {
+    return beyond_field(harmonic, *s.earth);
+  };
+  if (part == HarmonicParameter::Part::J) {
+    parameter.help = "zonal coefficient, not normalised, tide-free";
+    parameter.value = [n](const SystemSettings& s) {
+      return not_normalised(n) * s.earth->field->C(n, 0);
+    };
+  } else {
+    parameter.help = "tesseral coefficient, fully normalised";
+    parameter.value = [part, n, m](const SystemSettings& s) {
+      const SphericalHarmonicCoefficients& field = *s.earth->field;
+      return part == HarmonicParameter::Part::C ? field.C(n, m) : field.S(n, m);
+    };
+  }
+  return parameter;
+}
 
 std::optional<MissingForce> without_air(const SystemSettings& settings) {
   if (settings.earth->atmosphere) return std::nullopt;
@@ -72,16 +122,6 @@ std::vector<EarthParameter> describe_parameters() {
        }},
       {std::string(mu_name), "gravitational parameter of the Earth in km^3/s^2",
        [](const SystemSettings& s) { return s.mu_km3_s2; }}};
-  for (int n = ZonalCoefficients::lowest; n <= highest_zonal_parameter; ++n) {
-    all.push_back({zonal_name(n), "zonal coefficient, not normalised, tide-free",
-                   [n](const SystemSettings& s) { return s.J[n]; },
-                   [n](const SystemSettings& s) -> std::optional<MissingForce> {
-                     if (n <= s.earth->degree) return std::nullopt;
-                     return MissingForce{
-                         fmt::format("beyond the field of degree {}", s.earth->degree),
-                         fmt::format("beside gravity_degree = {} or more", n)};
-                   }});
-  }
   for (const std::string_view name : thrust_names) {
     all.push_back({std::string(name), "constant acceleration along R, T or N of the orbit in m/s^2",
                    [](const SystemSettings&) { return 0.0; }});
@@ -103,21 +143,26 @@ std::optional<OrbitThrust> thrust_of(const EarthSettings& earth, const Extended&
   return thrust;
 }
 
-/// mu and the zonal coefficients that are parameters.
+/// mu and the coefficients of the field that are parameters.
 void vary_field(const SystemSettings& settings, double canonical_radius,
                 GravityOfTurningBody& gravity) {
   const EarthSettings& earth = *settings.earth;
   gravity.scale = coefficient(earth, mu_name, 1);
   if (gravity.scale.parameter) gravity.unit_of_scale = Extended(1) / settings.mu_km3_s2;
-  for (int n = ZonalCoefficients::lowest; n <= highest_zonal_parameter; ++n) {
-    const SpacecraftCoefficient J = coefficient(earth, zonal_name(n), settings.J[n]);
-    if (!J.parameter) continue;
-    SphericalHarmonicCoefficients unit(n, 0);
+  for (const std::string& name : earth.parameters) {
+    const auto harmonic = HarmonicParameter::named(name);
+    if (!harmonic) continue;
+    const auto [part, n, m] = *harmonic;
+    SphericalHarmonicCoefficients unit(n, m);
     unit.C(0, 0) = 0;
-    unit.C(n, 0) = -1 / std::sqrt(2.0 * n + 1);
+    if (part == HarmonicParameter::Part::J) {
+      unit.C(n, 0) = 1 / not_normalised(n);
+    } else {
+      (part == HarmonicParameter::Part::C ? unit.C(n, m) : unit.S(n, m)) = 1;
+    }
     gravity.variations.push_back(
         {std::make_shared<const SphericalHarmonicField>(1.0, canonical_radius, std::move(unit)),
-         J});
+         coefficient(earth, name, parameter_of(*harmonic).value(settings))});
   }
 }
 
@@ -187,6 +232,15 @@ const std::vector<EarthParameter>& earth_parameters() {
   return parameters;
 }
 
+std::optional<EarthParameter> earth_parameter(std::string_view name) {
+  for (const EarthParameter& parameter : earth_parameters()) {
+    if (parameter.name == name) return parameter;
+  }
+  const auto harmonic = HarmonicParameter::named(name);
+  if (!harmonic) return std::nullopt;
+  return parameter_of(*harmonic);
+}
+
 bool is_of_all_spacecraft(std::string_view name) {
   return name != drag_parameter && name != radiation_parameter &&
          std::find(thrust_names.begin(), thrust_names.end(), name) == thrust_names.end();
@@ -211,9 +265,7 @@ std::vector<double> parameter_values(const SystemSettings& settings) {
   std::vector<double> values;
   if (!settings.earth) return values;
   for (const std::string& name : settings.earth->parameters) {
-    for (const EarthParameter& parameter : earth_parameters()) {
-      if (parameter.name == name) values.push_back(parameter.value(settings));
-    }
+    values.push_back(earth_parameter(name).value().value(settings));
   }
   return values;
 }

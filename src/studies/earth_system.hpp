@@ -29,7 +29,12 @@ struct EarthParameter {
   /// Why it would have no effect in a scene; null if it always has one.
   std::function<std::optional<MissingForce>(const SystemSettings&)> missing = {};
 };
+/// All of them but the coefficients of the field.
 const std::vector<EarthParameter>& earth_parameters();
+
+/// The parameter of a name: one of these, or a HarmonicParameter, also one that the field of a
+/// scene lacks. No value for any other name.
+std::optional<EarthParameter> earth_parameter(std::string_view name);
 
 /// Whether a parameter is the same of all spacecraft, as those of the air and of the field are.
 bool is_of_all_spacecraft(std::string_view name);

@@ -265,16 +265,21 @@ void read_parameters(const TableReader& jet, SystemSettings& settings) {
   const EarthSettings& earth = *settings.earth;
   const std::vector<std::string> variables = jet.texts("variables");
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    for (const EarthParameter& parameter : earth_parameters()) {
-      const auto& known = earth.parameters;
-      const bool is_known = std::find(known.begin(), known.end(), parameter.name) != known.end();
-      if (parameter.name != variables[i] || is_known) continue;
-      if (const auto force = parameter.missing ? parameter.missing(settings) : std::nullopt) {
-        jet.fail_element("variables", i,
-                         fmt::format("{}, got \"{}\", must be left out, or {}", force->what,
-                                     parameter.name, force->right));
-      }
-      add_parameter(settings, parameter.name);
+    const std::optional<EarthParameter> parameter = earth_parameter(variables[i]);
+    if (!parameter) continue;
+    if (const auto force = parameter->missing ? parameter->missing(settings) : std::nullopt) {
+      jet.fail_element("variables", i,
+                       fmt::format("{}, got \"{}\", must be left out, or {}", force->what,
+                                   variables[i], force->right));
+    }
+    if (parameter->name != variables[i]) {
+      jet.fail_element("variables", i,
+                       fmt::format("written in another way, got \"{}\", must be \"{}\"",
+                                   variables[i], parameter->name));
+    }
+    const auto& known = earth.parameters;
+    if (std::find(known.begin(), known.end(), variables[i]) == known.end()) {
+      add_parameter(settings, variables[i]);
     }
   }
 }
