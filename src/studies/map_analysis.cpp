@@ -3,10 +3,14 @@
 #include <cmath>
 #include <span>
 
+#include "../integrators/independent_runs.hpp"
 #include "../integrators/momentum_unit.hpp"
 #include "../maps/inversion_miss.hpp"
+#include "checks/smooth_forces.hpp"
 #include "formation_scale.hpp"
+#include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "integration.hpp"
 #include "stopwatch.hpp"
 
 namespace hamjet {
@@ -24,7 +28,76 @@ double position_distance(const FlowJet<Extended>& a, const FlowJet<Extended>& b,
   return static_cast<double>(Extended(sqrt(square)));
 }
 
+template <class Real>
+FlowJet<Extended> integrated_finer(const Scene& scene, const ComputedProblem& problem) {
+  IntegrationStatistics statistics;
+  return convert_map<Extended>(integrate_gauss<Real>(
+      flow_problem<Real>(problem, scene.duration),
+      gauss_of_independent_run<Real>(0, has_smooth_forces(scene.system)), statistics));
+}
+
+/// A bracket of degree d has products of the degrees a and d + 2 - a of the jet, each wrong by the
+/// errors of both.
+std::vector<double> defects_of_errors(const std::vector<double>& errors, std::size_t degrees) {
+  std::vector<double> defects;
+  for (std::size_t d = 0; d < degrees; ++d) {
+    double worst = 0;
+    for (std::size_t a = 1; a <= d + 1; ++a) worst = std::max(worst, errors[a] + errors[d + 2 - a]);
+    defects.push_back(worst);
+  }
+  return defects;
+}
+
 }  // namespace
+
+const FlowJet<Extended>* MapAnalysis::finer_jet() {
+  if (reference_) return &reference_->jet;
+  if (!finer_) {
+    finer_.emplace();
+    try {
+      *finer_ = scene_.precision == Precision::extended
+                    ? integrated_finer<Extended>(scene_, problem_)
+                    : integrated_finer<double>(scene_, problem_);
+    } catch (const Error& error) {
+      // The residuals of the run itself are told all the same.
+      if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
+    }
+  }
+  return finer_->empty() ? nullptr : &*finer_;
+}
+
+/// Tells what the forces and the integration leave of exactness, whose residual is linear in the
+/// one-form.
+void MapAnalysis::add_forces(KindResult& result, const std::vector<Series<Extended>>& sigma) {
+  const FlowJet<Extended>* finer = finer_jet();
+  if (finer == nullptr) return;
+  std::vector<Series<Extended>> difference = one_form(invert_partially<Extended>(
+      *finer, result.kind, rounding_of(scene_.precision), problem_.momentum_exponent));
+  const auto forces = exactness_residual(difference, scales(result.kind));
+  for (std::size_t i = 0; i < sigma.size(); ++i) difference[i] = sigma[i] - difference[i];
+  const auto integration = exactness_residual(difference, scales(result.kind));
+  for (std::size_t d = 0; d < result.by_degree.size(); ++d) {
+    result.by_degree[d].forces = forces[d];
+    result.by_degree[d].integration = integration[d].absolute;
+  }
+}
+
+void MapAnalysis::add_integration_defects(RunResult& run, const FlowJet<Extended>& comparable) {
+  std::vector<double> errors;
+  if (finer_ && !finer_->empty()) {
+    errors =
+        relative_error_by_degree(comparable, in_momentum_unit(*finer_, problem_.variables,
+                                                              problem_.degrees_of_freedom.size(),
+                                                              problem_.momentum_exponent));
+  } else if (run.error_by_degree) {
+    errors = *run.error_by_degree;
+  } else if (run.error_estimate.by_degree) {
+    errors = *run.error_estimate.by_degree;
+  }
+  if (errors.size() > run.symplecticity.size()) {
+    run.integration_defects = defects_of_errors(errors, run.symplecticity.size());
+  }
+}
 
 std::vector<double> MapAnalysis::scales(const GeneratingFunctionKind& kind) const {
   if (!scene_.separation) return {};
@@ -100,12 +173,14 @@ KindResult MapAnalysis::invert(RunResult& run, const std::string& requested) {
     const auto sigma = one_form(inversion);
     ++run.counts.exactness_residuals;
     const auto residuals = exactness_residual(sigma, scales(result.kind));
-    const auto* floors = floor(result.kind);
+    const bool is_hamiltonian = problem_.system->is_hamiltonian;
+    const auto* floors = is_hamiltonian ? floor(result.kind) : nullptr;
     for (std::size_t d = 0; d < residuals.size(); ++d) {
-      ExactnessEntry entry{residuals[d], std::nullopt};
+      ExactnessEntry entry{residuals[d], std::nullopt, std::nullopt, std::nullopt};
       if (floors != nullptr) entry.floor = (*floors)[d];
       result.by_degree.push_back(entry);
     }
+    if (!is_hamiltonian) add_forces(result, sigma);
     result.generating_function = generating_function(sigma);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
@@ -130,8 +205,10 @@ void MapAnalysis::analyse(RunResult& run) {
   run.symplecticity = symplecticity_by_degree<Extended>(comparable);
   const auto components = static_cast<long>(run.jet.size());
   run.counts.poisson_brackets += components * (components - 1) / 2;
-  if (!scene_.kinds) return;
-  for (const std::string& kind : *scene_.kinds) run.kinds.push_back(invert(run, kind));
+  if (scene_.kinds) {
+    for (const std::string& kind : *scene_.kinds) run.kinds.push_back(invert(run, kind));
+  }
+  if (!problem_.system->is_hamiltonian) add_integration_defects(run, comparable);
 }
 
 }  // namespace hamjet

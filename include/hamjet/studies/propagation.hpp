@@ -31,9 +31,14 @@ struct NominalPoint {
 /// One degree of the exactness residual, and its rounding floor, below which the residual means
 /// nothing: the residual of the reference rounded to the run's precision. There is no floor without
 /// a reference.
+/// Where the forces are none of a Hamiltonian, their own residual stands in place of a floor: that
+/// of the reference or of a finer jet, and beside it the residual of the difference of both
+/// one-forms, which the integration causes.
 struct ExactnessEntry {
   ExactnessResidual residual;
   std::optional<ExactnessResidual> floor;
+  std::optional<ExactnessResidual> forces;
+  std::optional<double> integration;  ///< absolute
 };
 
 /// A generating function of one kind, and its exactness.
@@ -102,6 +107,10 @@ struct RunResult {
   std::vector<KindResult> kinds;
   /// Empty if the jet is not expanded in all variables.
   std::vector<SymplecticityDefect> symplecticity;
+  /// Where the forces are none of a Hamiltonian, for each entry of `symplecticity` about how much
+  /// of its scaled defect the error of the jet may be; the rest is of the forces. Empty otherwise,
+  /// and where that error is not known.
+  std::vector<double> integration_defects;
   std::optional<std::vector<double>> error_by_degree;  ///< see relative_error_by_degree
   JetErrorEstimate error_estimate;
   /// By degree, the effect of leaving out a shift in time (FlowSymmetry): the relative difference,

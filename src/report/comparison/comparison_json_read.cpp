@@ -28,7 +28,7 @@ ExactnessResidual read_residual(const JsonReader& value) {
 
 void read_member(const JsonReader& value, std::vector<ExactnessEntry>& entries) {
   entries = value.list([](const JsonReader& entry) {
-    ExactnessEntry read{read_residual(entry), std::nullopt};
+    ExactnessEntry read{read_residual(entry), std::nullopt, std::nullopt, std::nullopt};
     const JsonReader floor = entry.at("floor");
     if (!floor.is_null()) read.floor = read_residual(floor);
     return read;

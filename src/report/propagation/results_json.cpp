@@ -29,7 +29,14 @@ Json exactness_json(const PropagationResult& result, const KindResult& kind) {
                 {"floor", nullptr},
                 {"floor_scaled", nullptr},
                 {"floor_at_formation_scale", nullptr},
-                {"at_floor", nullptr}};
+                {"at_floor", nullptr},
+                {"forces", nullptr},
+                {"forces_scaled", nullptr},
+                {"integration", or_null(entry.integration)}};
+    if (entry.forces) {
+      row["forces"] = entry.forces->absolute;
+      row["forces_scaled"] = entry.forces->scaled;
+    }
     if (entry.floor) {
       row["floor"] = entry.floor->absolute;
       row["floor_scaled"] = entry.floor->scaled;
@@ -181,6 +188,9 @@ Json run_json(const PropagationResult& result, const RunResult& run) {
     json["exactness"].push_back(exactness_json(result, kind));
   if (!result.scene.kinds || !result.problem.is_full_jet) json["exactness"] = nullptr;
   json["symplecticity_by_degree"] = symplecticity_json(run.symplecticity);
+  for (std::size_t d = 0; d < run.integration_defects.size(); ++d) {
+    json["symplecticity_by_degree"][d]["integration_scaled"] = run.integration_defects[d];
+  }
   json["error_by_degree"] = by_degree_json(run.error_by_degree);
   json["error_estimate_by_degree"] = by_degree_json(run.error_estimate.by_degree);
   json["tolerance_by_degree"] = tolerance_json(result.scene, run);

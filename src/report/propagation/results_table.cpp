@@ -11,6 +11,7 @@
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../own_units_text.hpp"
+#include "forces_text.hpp"
 #include "hamjet/report/results.hpp"
 
 namespace hamjet::io {
@@ -87,7 +88,7 @@ std::string charted_line(const Scene& scene, const RunResult& run) {
 }
 
 /// A word that says what came of a run; the lines below the table say more.
-std::string verdict(const Scene& scene, const RunResult& run) {
+std::string verdict(const Scene& scene, const RunResult& run, bool shows_forces) {
   if (!run.failure.empty()) return "failed";
   if (!run.failed_checks.empty()) return "check failed";
   if (!no_digits_warning(run).empty()) return "no digit";
@@ -98,7 +99,7 @@ std::string verdict(const Scene& scene, const RunResult& run) {
   if (is_incomplete) return "incomplete";
   const std::vector<KeptTolerance> tolerance = kept_tolerance(scene, run);
   const std::size_t kept = degrees_kept(tolerance);
-  if (kept == tolerance.size()) return "ok";
+  if (kept == tolerance.size()) return shows_forces ? "not symplectic" : "ok";
   return kept == 0 ? "tolerance not kept" : fmt::format("ok to degree {}", kept - 1);
 }
 
@@ -117,6 +118,11 @@ std::string residual_text(const KindResult& kind, std::size_t degree) {
 
 bool has_kinds(const PropagationResult& result) {
   return result.scene.kinds && !result.scene.kinds->empty() && result.problem.is_full_jet;
+}
+
+/// Whether exactness is that of forces which are none of a Hamiltonian.
+bool shows_forces(const PropagationResult& result) {
+  return has_kinds(result) && !result.problem.system->is_hamiltonian;
 }
 
 Column error_column(const PropagationResult& result) {
@@ -138,14 +144,15 @@ Column estimate_column(const PropagationResult& result) {
           }};
 }
 
-Column symplecticity_column(const Scene& scene) {
-  const bool has_drag = scene.system.earth && scene.system.earth->atmosphere;
+Column symplecticity_column(const PropagationResult& result) {
+  const bool has_drag = !result.problem.system->is_hamiltonian;
   return {"symplecticity",
-          has_drag ? "symplecticity: the largest scaled defect of the Poisson brackets over all "
-                     "degrees. It is not judged: with drag the system is not Hamiltonian, and its "
-                     "true map has such a defect too."
-                   : "symplecticity: the largest scaled defect of the Poisson brackets over all "
-                     "degrees.",
+          has_drag
+              ? "symplecticity: the largest scaled defect of the Poisson brackets over all "
+                "degrees. It is not judged: the system, in which a force such as drag acts, is "
+                "not Hamiltonian, and its true map has such a defect too."
+              : "symplecticity: the largest scaled defect of the Poisson brackets over all "
+                "degrees.",
           largest_defect};
 }
 
@@ -155,9 +162,10 @@ Column exactness_column(const PropagationResult& result) {
   const std::string& kind = result.scene.kinds->front();
   const std::size_t degree = shown_degrees(result.scene).back();
   return {fmt::format("{} exactness", kind),
-          fmt::format(
-              "{} exactness: the absolute exactness residual of degree {}{}", kind, degree,
-              result.reference ? "; * at its floor, where round-off hides the integrator." : "."),
+          fmt::format("{} exactness: the absolute exactness residual of degree {}{}", kind, degree,
+                      shows_forces(result) ? ", which the forces make."
+                      : result.reference ? "; * at its floor, where round-off hides the integrator."
+                                         : "."),
           [degree](const RunResult& run) { return residual_text(run.kinds.front(), degree); }};
 }
 
@@ -165,11 +173,17 @@ std::vector<Column> main_columns(const PropagationResult& result) {
   std::vector<Column> columns = {
       {"time", "", [](const RunResult& run) { return duration_text(run.statistics.wall_seconds); }},
       result.reference ? error_column(result) : estimate_column(result),
-      symplecticity_column(result.scene)};
+      symplecticity_column(result)};
   if (has_kinds(result)) columns.push_back(exactness_column(result));
-  columns.push_back({"verdict",
-                     "verdict: what the checks came to; ok says nothing of the size of the error.",
-                     [&result](const RunResult& run) { return verdict(result.scene, run); }, true});
+  columns.push_back(
+      {"verdict",
+       shows_forces(result)
+           ? "verdict: what the checks came to; not symplectic says that they passed, "
+             "and that exactness is the residual of the forces."
+           : "verdict: what the checks came to; ok says nothing of the size of the "
+             "error.",
+       [&result](const RunResult& run) { return verdict(result.scene, run, shows_forces(result)); },
+       true});
   return columns;
 }
 
@@ -194,7 +208,9 @@ std::vector<Column> further_columns(const PropagationResult& result) {
       if (k == 0 && d == 0) {
         explanation = fmt::format(
             "{} degree 0, ...: the absolute exactness residual of that degree{}", kind,
-            result.reference ? "; * at its floor, where round-off hides the integrator." : ".");
+            shows_forces(result) ? ", which the forces make."
+            : result.reference   ? "; * at its floor, where round-off hides the integrator."
+                                 : ".");
       }
       columns.push_back({fmt::format("{} degree {}", kind, d), explanation,
                          [k, d](const RunResult& run) { return residual_text(run.kinds[k], d); }});
@@ -318,6 +334,7 @@ std::string summary_table(const PropagationResult& result) {
     for (const std::string& check : run.failed_checks) {
       text += fmt::format("CHECK FAILED: {}: {}\n", run.settings.label, check);
     }
+    if (run.failure.empty()) text += forces_lines(result, run);
     text += charted_line(scene, run);
     for (const KindResult& kind : run.kinds) {
       if (!kind.failure.empty()) {
