@@ -16,14 +16,20 @@ bool are_same(const CanonicalUnits& a, const CanonicalUnits& b) {
   return a.length_km == b.length_km && a.time_s == b.time_s;
 }
 
+/// Of two states the numbers to be compared: all, or positions and momenta alone where one of them
+/// lacks parameters behind them, which a scene need not name to have the orbit of a jet.
+std::ptrdiff_t common(const std::vector<double>& a, const std::vector<double>& b,
+                      std::size_t state) {
+  return static_cast<std::ptrdiff_t>(a.size() == b.size() ? a.size() : state);
+}
+
 /// Whether positions and momenta are the same but for the roundings of two units.
 bool are_nearly_same(const std::vector<double>& a, const std::vector<double>& b,
                      std::size_t degrees_of_freedom) {
-  if (a.size() != b.size()) return false;
   constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
   const std::size_t n = degrees_of_freedom;
-  if (!std::equal(a.begin() + static_cast<std::ptrdiff_t>(2 * n), a.end(),
-                  b.begin() + static_cast<std::ptrdiff_t>(2 * n))) {
+  const auto behind = static_cast<std::ptrdiff_t>(2 * n);
+  if (!std::equal(a.begin() + behind, a.begin() + common(a, b, 2 * n), b.begin() + behind)) {
     return false;
   }
   for (const std::size_t first : {std::size_t{0}, n}) {
@@ -54,7 +60,13 @@ bool is_about_chief(const io::StoredJet& stored, const Scene& scene) {
     return false;
   }
   if (!starts_as(stored, scene)) return false;
-  if (are_same(stored.units, scene.units)) return stored.nominal_initial == scene.nominal;
+  if (are_same(stored.units, scene.units)) {
+    const std::size_t state = 2 * stored.degrees_of_freedom();
+    return std::equal(
+        stored.nominal_initial.begin(),
+        stored.nominal_initial.begin() + common(stored.nominal_initial, scene.nominal, state),
+        scene.nominal.begin());
+  }
   return are_nearly_same(told_state(scene, scene.nominal), stored.nominal_initial,
                          stored.degrees_of_freedom());
 }

@@ -104,6 +104,10 @@ const std::vector<ForeignKeys>& foreign_keys() {
       {"nominal",
        {"n_rad_s", "n_rev_day", "mean_motion", "mean_motion_rev_day", "period_min", "period_h"},
        "mean motion and other units are not read, must be period_s, the period"},
+      {"spacecraft",
+       {"B", "b", "ballistic_coefficient", "ballistic_coefficient_m2_kg",
+        "ballistic_coefficient_kg_m2", "BC", "bc", "beta"},
+       "must be drag_m2_kg, C_D A / m in m^2/kg, of a coefficient in kg/m^2 its inverse"},
       {"system",
        {"C20", "C30", "C40", "C50", "C60", "C70", "C80", "C90", "C100", "C110", "C120", "C130",
         "C140", "C150", "C160", "C170", "C180", "C190", "C200"},
@@ -151,7 +155,10 @@ std::optional<std::string_view> remedy_for_foreign_key(std::string_view table,
                                                        std::string_view name) {
   for (const ForeignKeys& keys : foreign_keys()) {
     const bool is_one = std::find(keys.names.begin(), keys.names.end(), name) != keys.names.end();
-    if (keys.table == table && is_one) return keys.remedy;
+    const bool is_in_table =
+        keys.table == table ||
+        (!keys.table.empty() && table.ends_with(fmt::format(".{}", keys.table)));
+    if (is_in_table && is_one) return keys.remedy;
   }
   return std::nullopt;
 }

@@ -153,6 +153,17 @@ std::vector<SceneKey> atmosphere_keys() {
        "densities of the `table` at its heights; between them ln of the density is smooth", owner}};
 }
 
+/// From a quiet Sun to an active one the density at 500 km grows some twentyfold (Montenbruck and
+/// Gill, Satellite Orbits, section 3.5), and the tables are of a mean one.
+void warn_of_factor(const TableReader& system, double factor) {
+  constexpr double least = 0.02, most = 50;
+  if (factor >= least && factor <= most) return;
+  system.warn("density_factor",
+              fmt::format("of no air of the Earth, got {:.6g}, should be from {} to {}: it is a "
+                          "factor of the table's densities, near 1, no percentage",
+                          factor, least, most));
+}
+
 void read_air(const TableReader& system, EarthSettings& earth) {
   if (!system.has("atmosphere")) {
     refuse_alone(
@@ -163,7 +174,10 @@ void read_air(const TableReader& system, EarthSettings& earth) {
   }
   AtmosphereSettings air;
   air.model = static_cast<AtmosphereModel>(system.choice("atmosphere"));
-  if (system.has("density_factor")) air.density_factor = system.positive_number("density_factor");
+  if (system.has("density_factor")) {
+    air.density_factor = system.positive_number("density_factor");
+    warn_of_factor(system, air.density_factor);
+  }
   system.read_if_any("bulge_exponent", air.bulge_exponent);
   if (air.bulge_exponent % 2 != 0) {
     system.fail("bulge_exponent",

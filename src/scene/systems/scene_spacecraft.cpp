@@ -57,8 +57,20 @@ void warn_of_unit(const TableReader& table, std::string_view key, const Coeffici
   if (value == 0 || (value >= keys.least && value <= keys.most)) return;
   table.warn(key,
              fmt::format("{} of hardly any spacecraft, got {:.4g} m^2/kg, should be from {} to "
-                         "{}; is the area in cm^2, or the coefficient kg/m^2?",
-                         keys.symbol, value, keys.least, keys.most));
+                         "{}; {}?",
+                         keys.symbol, value, keys.least, keys.most,
+                         value > keys.most ? "is the area in cm^2, or the coefficient kg/m^2"
+                                           : "is the mass in g, or the coefficient km^2/kg"));
+}
+
+/// In free molecular flow C_D is from 2 to 4, by shape and surface.
+void warn_of_drag_coefficient(const TableReader& table, double factor) {
+  constexpr double least = 1, most = 6;
+  if (factor >= least && factor <= most) return;
+  table.warn(drag_keys.factor,
+             fmt::format("of no spacecraft, got C_D = {:.6g}, should be from {} to {}; most have "
+                         "about {}",
+                         factor, least, most, usual_drag_coefficient));
 }
 
 /// The forces that act on a spacecraft by its surface.
@@ -108,6 +120,7 @@ double read_coefficient(const TableReader& table, const CoefficientKeys& keys,
   const double area = table.positive_number(area_key);
   double factor = keys.usual_factor;
   table.read_if_any(keys.factor, factor);
+  if (keys.factor == drag_keys.factor) warn_of_drag_coefficient(table, factor);
   parts.mass_kg = mass;
   parts.*keys.part_area = area;
   parts.*keys.part_factor = factor;
@@ -205,6 +218,19 @@ SpacecraftSettings coefficients_of_conjunction(const TableReader& table, std::st
   return settings;
 }
 
+/// What the OPM of a table says of a mass and areas that are not read, such as those in other
+/// units.
+std::string doubts_of_message(const TableReader& table) {
+  std::string text;
+  if (!table.has(message_key)) return text;
+  for (const std::string& doubt : parameters_of_orbit_file(table).doubts) {
+    const bool is_of_spacecraft =
+        doubt.find("MASS") != std::string::npos || doubt.find("_AREA") != std::string::npos;
+    if (is_of_spacecraft) text += "; " + doubt;
+  }
+  return text;
+}
+
 /// Whether a table says anything about a coefficient.
 bool tells(const TableReader& table, const CoefficientKeys& keys) {
   for (const std::string_view key : {keys.itself, keys.factor, keys.own_area,
@@ -231,7 +257,9 @@ SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForc
   }
   const bool needs_area =
       drag_needs_parts || (radiation_needs_parts && !table.has(radiation_keys.own_area));
-  if (table.has("area_m2") && !needs_area) {
+  // An area across the motion may stand beside a sunlit one, also where there is no air.
+  const bool may_have_area = radiation_needs_parts && !forces.has_drag;
+  if (table.has("area_m2") && !needs_area && !may_have_area) {
     fail_given_twice(table, "area_m2", radiation_needs_parts ? radiation_keys.own_area : other);
   }
   SpacecraftSettings settings;
@@ -344,9 +372,10 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
       system.fail(
           key, fmt::format("without a spacecraft, got {}, must stand beside a table "
                            "[spacecraft] with mass_kg and area_m2, or {}, or a message "
-                           "nominal.opm_file with MASS and {}, or a CDM in uncertainty.file",
+                           "nominal.opm_file with MASS and {}, or a CDM in uncertainty.file{}",
                            system.found(key), lacks_drag ? drag_keys.itself : radiation_keys.itself,
-                           lacks_drag ? "DRAG_AREA" : "SOLAR_RAD_AREA"));
+                           lacks_drag ? "DRAG_AREA" : "SOLAR_RAD_AREA",
+                           doubts_of_message(root.table("nominal"))));
     }
   }
   if (root.has("spacecraft")) {
