@@ -173,6 +173,9 @@ DescribedRun read_description(const JsonReader& root, const std::optional<std::s
                      stored.variables.end())) {
     root.at("variables").fail("must be among the components");
   }
+  if (root.has("eval")) {
+    stored.eval_tolerance_m = positive_number(root.at("eval").at("tolerance_m"));
+  }
   const int order = root.at("order").integer<int>();
   const JsonReader count = root.at("coefficients_per_component");
   // The canonical duration is a product of quotients, exact but for its last digits.

@@ -90,6 +90,11 @@ void require(bool holds, const char* what) {
 
 }  // namespace
 
+double truncation_in_box(const FlowMap<double>& map, std::span<const double> half_widths,
+                         std::size_t components) {
+  return assess(map, half_widths, components).error;
+}
+
 SplitMap split_domains(const std::function<FlowMap<double>(std::span<const double>)>& map_about,
                        std::span<const double> centre, std::span<const double> half_widths,
                        const SplitSettings& settings) {

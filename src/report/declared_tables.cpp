@@ -84,6 +84,7 @@ std::vector<TableView> declared_uncertainty() {
     list->resize(4);
   }
   result.safety.emplace();
+  result.domains.push_back({"chief", {{Vector<double>::Zero(6)}}});
   return uncertainty_tables(result);
 }
 

@@ -76,10 +76,18 @@ ArrivalState read_arrival(const TableReader& table, const Nominal& nominal);
 RelativeState read_place(const TableReader& table, const Nominal& nominal);
 
 /// The value of a key of three standard deviations along the axes of a frame, and its numbers, each
-/// from 0 to below the limit, which may be infinite; `of_limit` goes on in the message about one that is not.
+/// from 0 to below the limit, which may be infinite; `of_limit` goes on in the message about one
+/// that is not.
 ValueForm deviations_form();
 std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
                                     std::string_view of_limit);
+
+/// The keys `tolerance_m` and `most_domains` of a table whose set is split into domains; the
+/// absences and meanings say what holds in it. A scene of order 1 is refused: nothing says what is
+/// right in it. `what` is split.
+std::vector<SceneKey> domain_keys(const Absence& tolerance, std::string tolerance_meaning,
+                                  std::string most_meaning);
+DomainSettings read_domains(const TableReader& table, const Scene& scene, std::string_view what);
 
 /// The start of the scene's deputy in the frame of another table.
 RelativeState in_other_frame(const TableReader& table, const Nominal& nominal,

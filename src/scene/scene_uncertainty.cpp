@@ -297,6 +297,12 @@ const TableDescription& uncertainty_table() {
              "power spectral density of white noise of the acceleration along each axis; its part "
              "of the covariance is linear; not beside a collision or safety study, which leave it "
              "out"}},
+           domain_keys(absent::other("one jet about each mean"),
+                       "the deviations within 3 standard deviations are split into domains, with "
+                       "jets in positions and velocities about centres of their own, until each "
+                       "coordinate of every position is right to it, by an estimate; of a "
+                       "collision, the distribution into narrower ones; safety has one jet",
+                       "no more are made of a spacecraft; `tolerance_m` must be there"),
            transfer_time_keys(absent::other("the end")),
            {{"coordinates", form::array(form::choice(names_of_measurable())),
              absent::other("those of `[jet]` alone"),
@@ -354,6 +360,13 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
           "needs a flow that is the same at every start, and the forces of the model earth depend "
           "on the time, got \"flow-box\", must be left out");
     }
+  }
+  if (uncertainty.has("tolerance_m")) {
+    settings.domains = read_domains(uncertainty, scene, "deviations");
+  } else if (uncertainty.has("most_domains")) {
+    uncertainty.fail("most_domains",
+                     "nothing is split, got it without tolerance_m, must be left out or beside "
+                     "tolerance_m");
   }
   uncertainty.read_if_any("gaussian_in", settings.gaussian_in);
   uncertainty.read_if_any("acceleration_density_m2_s3", settings.acceleration_density_m2_s3);

@@ -46,7 +46,8 @@ SampledParts sampled_parts(std::vector<EncounterPart> parts, std::size_t first,
             std::make_unique<SampledEncounter>(std::move(parts[k]), settings, effort, first + k);
         bool has_entries = false;
         try {
-          has_entries = result[k]->sample_entries();
+          has_entries =
+              settings.sampling != CollisionSampling::plain && result[k]->sample_entries();
         } catch (const Error& error) {
           if (error.kind() != ErrorKind::numerical) throw;
         }
@@ -76,7 +77,8 @@ SampledParts narrow_parts(const EncounterProblem& problem, const CollisionSettin
     if (all.empty() && !parts[0].trajectories) return all;
     wide.clear();
     for (auto& part : sampled_parts(std::move(parts), all.size(), settings)) {
-      const bool is_wide = !part->sampler() && !part->is_empty() && bend != bends_of_parts.back();
+      const bool is_wide = settings.sampling != CollisionSampling::plain && !part->sampler() &&
+                           !part->is_empty() && bend != bends_of_parts.back();
       if (is_wide) {
         wide.push_back({part->weight(), part->problem()});
       } else {
@@ -156,11 +158,13 @@ void add_up(const SampledParts& parts, const std::vector<SampleSums>& sums,
   double lower = 0, upper = 0;  // the interval that plain samples give
   double variance_of_change = 0;
   std::vector<double> by_time(time_count, 0.0);
+  result.parts = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const SampledEncounter& part = *parts[k];
     const SampleSums& own = sums[k];
     if (own.samples == 0) continue;
     const double weight = part.weight();
+    ++result.parts;
     result.samples += own.samples;
     result.hits += own.hits.count;
     result.path_error = std::max(result.path_error, part.path_error());
@@ -256,13 +260,23 @@ CollisionProbability collision_probability(const EncounterProblem& problem,
         "missed where collisions come from; plain sampling does not";
     return !is_told_by_few && (must_enter || !is_worse);
   };
-  if (settings.sampling != CollisionSampling::plain) {
+  const auto of_parts = [&](const SampledParts& parts) {
+    return result_of(problem, settings, parts,
+                     shares_of_samples(parts, static_cast<std::size_t>(settings.samples)));
+  };
+  const bool is_plain = settings.sampling == CollisionSampling::plain;
+  if (!is_plain || problem.tolerance) {
     const SampledParts parts = narrow_parts(problem, settings);
     if (!parts.empty()) {
-      const CollisionProbability result =
-          result_of(problem, settings, parts,
-                    shares_of_samples(parts, static_cast<std::size_t>(settings.samples)));
-      if (is_believed(result)) return result;
+      const CollisionProbability result = of_parts(parts);
+      if (is_plain || is_believed(result)) return result;
+      // The polynomials of the whole are wrong.
+      if (problem.tolerance && !must_enter) {
+        for (const auto& part : parts) {
+          if (part->sampler()) part->sample_plainly();
+        }
+        return of_parts(parts);
+      }
     }
   }
   SampledParts whole;

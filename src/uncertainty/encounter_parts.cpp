@@ -7,9 +7,12 @@
 #include <limits>
 #include <numbers>
 
+#include "../algebra/singular_values.hpp"
 #include "../integrators/concurrent_tasks.hpp"
 #include "cubic_arc.hpp"
 #include "hamjet/algebra/composition.hpp"
+#include "hamjet/maps/domain_splitting.hpp"
+#include "hamjet/uncertainty/polynomial_moments.hpp"
 #include "relative_paths.hpp"
 #include "track_axes.hpp"
 
@@ -53,28 +56,77 @@ Row6 along_track(const UncertainSpacecraft& craft) {
 /// the six, in which that number is narrower by a factor.
 UncertainSpacecraft narrowed(const UncertainSpacecraft& whole, const Row6& direction, double centre,
                              double narrow) {
-  const StraightDeviations& straight = *whole.straight;
   const auto moved = whole.deviated(centre * direction.transpose());
+  const Matrix6 narrowing = Matrix6::Identity() + (narrow - 1) * direction.transpose() * direction;
   UncertainSpacecraft part;
   part.state.assign(moved.begin(), moved.end());
-  part.straight.emplace(straight.chart(), moved);
   part.own_system = whole.own_system;
-  const Matrix6 of_coordinates =
-      straight.slope() * whole.factor *
-      (Matrix6::Identity() + (narrow - 1) * direction.transpose() * direction);
+  if (!whole.straight) {
+    part.factor = whole.factor * narrowing;
+    return part;
+  }
+  const StraightDeviations& straight = *whole.straight;
+  part.straight.emplace(straight.chart(), moved);
+  const Matrix6 of_coordinates = straight.slope() * whole.factor * narrowing;
   part.factor = Eigen::PartialPivLU<Matrix6>(part.straight->slope()).solve(of_coordinates);
   return part;
 }
 
+/// A direction of the standard normal numbers, a unit vector, and how narrow parts along it are.
+struct Narrowing {
+  Row6 direction;
+  double narrow = 1;
+};
+
+constexpr double right_within = 3;  // standard deviations of a part
+
 /// Within three standard deviations of a part the path bends by `bend` at most.
-std::vector<Component> components_of(const UncertainSpacecraft& craft, double bend) {
+Narrowing by_bend(const UncertainSpacecraft& craft, double bend) {
   const Row6 along = along_track(craft);
   const double deviation = along.norm();
+  if (!craft.straight || !(deviation > 0)) return {Row6::UnitX(), 1};
   const double distance = Eigen::Map<const Eigen::Vector3d>(craft.state.data()).norm();
-  constexpr double far_out = 3;
-  const double narrow =
-      std::max(std::sqrt(2 * distance * bend) / (far_out * deviation), narrowest_part);
-  if (!craft.straight || !(narrow < widest_part)) return {{0, craft}};
+  return {along / deviation,
+          std::max(std::sqrt(2 * distance * bend) / (right_within * deviation), narrowest_part)};
+}
+
+/// Within three standard deviations of a part the polynomials are right to the problem's tolerance,
+/// as far as those about the whole's mean foretell; the direction is that which the flow stretches
+/// most by the end of the window that is farther from the epoch.
+Narrowing by_tolerance(const EncounterProblem& problem, std::size_t craft,
+                       const std::vector<double>& looks) {
+  const UncertainSpacecraft& whole = problem.spacecraft[craft];
+  const WindowJets jets = window_jets(problem, craft);
+  const auto jet_at = [&](double time) {
+    return jets->at(std::clamp(time - problem.from, 0.0, problem.to - problem.from));
+  };
+  const double last = std::abs(problem.to) >= std::abs(problem.from) ? problem.to : problem.from;
+  const Matrix<double> turn =
+      decompose_by_singular_values(Matrix<double>(linear_part(jet_at(last)) * whole.factor)).right;
+  std::vector<FlowMap<double>> maps;
+  const Covariance turned = Covariance::of_factor(Matrix<double>(whole.factor * turn));
+  for (const double time : looks) {
+    maps.emplace_back(in_standard_normals(jet_at(time), turned));
+  }
+  const double narrowest = std::max(
+      narrowest_part, 2 * farthest_deviation / (spacing * static_cast<double>(problem.most_parts)));
+  constexpr double factor = 0.85;  // from one trial to the next
+  Narrowing result{turn.col(0).transpose(), 1};
+  std::vector<double> widths(6, right_within);
+  const auto is_right = [&](const FlowMap<double>& map) {
+    return truncation_in_box(map, widths, 3) <= *problem.tolerance;
+  };
+  while (result.narrow > narrowest && !std::all_of(maps.begin(), maps.end(), is_right)) {
+    result.narrow = std::max(result.narrow * factor, narrowest);
+    widths[0] = right_within * result.narrow;
+  }
+  return result;
+}
+
+/// The parts of one spacecraft.
+std::vector<Component> components_of(const UncertainSpacecraft& craft, const Narrowing& narrowing) {
+  const double narrow = narrowing.narrow;
+  if (!(narrow < widest_part)) return {{0, craft}};
   const double variance = 1 - narrow * narrow;
   const double step = spacing * narrow * std::sqrt(variance);
   std::vector<Component> components;
@@ -83,7 +135,7 @@ std::vector<Component> components_of(const UncertainSpacecraft& craft, double be
     const double centre = k * step;
     Component component{-centre * centre / (2 * variance) +
                             std::log(step / std::sqrt(2 * std::numbers::pi * variance)),
-                        narrowed(craft, along / deviation, centre, narrow)};
+                        narrowed(craft, narrowing.direction, centre, narrow)};
     // Far out the coordinates may belong to no orbit.
     if (component.craft.factor.allFinite()) components.push_back(std::move(component));
   }
@@ -216,17 +268,30 @@ class Pairing {
 
 std::vector<EncounterPart> encounter_parts(const EncounterProblem& problem, double bend,
                                            std::size_t threads) {
+  EncounterProblem of_means = problem;
+  of_means.order = 0;
+  std::vector<double> looks;
+  const auto look = [&] {
+    if (looks.empty()) {
+      looks = EncounterTrajectories(of_means).times_of_looks(looks_per_period, fewest_looks);
+    }
+    return looks;
+  };
   std::array<std::vector<Component>, 2> components;
   std::vector<std::pair<std::size_t, std::size_t>> all;  // spacecraft and component
   for (std::size_t craft = 0; craft < 2; ++craft) {
-    components[craft] = components_of(problem.spacecraft[craft], bend);
+    const UncertainSpacecraft& whole = problem.spacecraft[craft];
+    Narrowing narrowing = by_bend(whole, bend);
+    if (problem.tolerance && problem.order > 1 && whole.factor.norm() > 0) {
+      const Narrowing right = by_tolerance(problem, craft, look());
+      // Of two reasons the one that asks for more decides; the other is looked at again in parts.
+      if (right.narrow < narrowing.narrow) narrowing = right;
+    }
+    components[craft] = components_of(whole, narrowing);
     for (std::size_t k = 0; k < components[craft].size(); ++k) all.emplace_back(craft, k);
   }
   if (all.size() <= 2) return {{1, problem}};
-  EncounterProblem of_means = problem;
-  of_means.order = 0;
-  const Pairing pairing(
-      problem, EncounterTrajectories(of_means).times_of_looks(looks_per_period, fewest_looks));
+  const Pairing pairing(problem, look());
   const auto on_threads = [&](std::size_t count, const auto& task) {
     run_concurrently(
         count, threads,

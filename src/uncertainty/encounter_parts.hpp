@@ -31,6 +31,12 @@ struct EncounterPart {
 ///
 /// with e below 3e-6 everywhere, also far out, by Poisson's summation formula. Pairs of parts are
 /// left out if a linear estimate of their contribution is a factor of 1.6e5 below the largest one.
+///
+/// In a problem with a tolerance the number s may be another one, along which the flow stretches
+/// deviations most: that of any spacecraft of which the polynomials are not right to the tolerance,
+/// by the estimate of split_domains, within three standard deviations. No more than `most_parts`
+/// are made for this reason.
+///
 /// Without such a spacecraft there is one part, the problem itself, without jets. Throws as
 /// integrate_gauss.
 std::vector<EncounterPart> encounter_parts(const EncounterProblem& problem, double bend,

@@ -33,6 +33,7 @@ inline CollisionProbability sample_probability(double size) {
   p.upper = 1.2 * size;
   p.path_error = 3 * size;
   p.standard_error = 0.1 * size;
+  p.parts = 9;
   p.samples = 5000;
   p.hits = 321;
   p.equivalent_samples = 77000;

@@ -72,6 +72,7 @@ inline ExpectedColumns collision_columns() {
           {"gaussian_in", {"", {"positions", "elements"}}},
           {"order", {"", 2}},
           {"sampling", {"", "entries"}},
+          {"parts", {"", 9}},
           {"probability", {"", 0.25}},
           {"confidence", {"", 0.75}},
           {"interval", {"", {0.225, 0.3}}},
@@ -161,6 +162,16 @@ inline std::vector<Walk> uncertainty_walks() {
   const StudyReport report = uncertainty_report(result, sample_transfer_origin());
   std::map<std::string, TableView> tables;
   for (TableView& table : uncertainty_tables(result)) tables[table.name] = table;
+  UncertaintyResult split = result;
+  split.scene.uncertainty->domains.emplace();
+  split.points[0].states[0].split = split.points[0].states[0].cartesian;
+  split.domains = {{"chief",
+                    {{Vector<double>{{1, 2, 3, 4, 5, 6}}, 0.25, 5},
+                     {Vector<double>{{7, 8, 9, 10, 11, 12}}, 0.75, 6}},
+                    3}};
+  const StudyReport split_report = uncertainty_report(split, sample_transfer_origin());
+  std::map<std::string, TableView> of_split;
+  for (TableView& table : uncertainty_tables(split)) of_split[table.name] = table;
   const ExpectedColumns keys = {
       {"coordinates", {"", "cartesian"}},
       {"frame", {"", "RTN"}},
@@ -185,27 +196,39 @@ inline std::vector<Walk> uncertainty_walks() {
     return Walk{tables.at(name), report, {row}, columns, place, 1e-12};
   };
   // Rows are components of two orders of two families, and of the samples.
-  return {walk("moments", 7,
-               both(moments_columns(2, of_order),
-                    both(order_columns(), without_values(scatter_columns))),
-               "/times/0/states/0/families/0/orders/1"),
-          walk("moments", 25,
-               both(moments_columns(5, of_samples),
-                    both(without_values(order_columns()), scatter_columns)),
-               "/times/0/states/0/flown"),
-          walk("cartesian", 7, moments_columns(2, order_columns())),
-          walk("charted", 1,
-               moments_columns(3, {{"negentropy_is_sure", {"", false}},
-                                   {"divergence_from_linear", {"", 2.25 / 12 + 4.0625 / 48}},
-                                   {"probability_error_of_linear",
-                                    {"", std::sqrt((2.25 / 12 + 4.0625 / 48) / 2)}}})),
-          walk("flown", 1, moments_columns(5, scatter_columns)),
-          walk("collision", 1, collision_columns()),
-          walk("whole_passage", 0, whole_passage_columns()),
-          walk("least_separation", 0, least_separation_columns()),
-          walk("approaches", 1, approaches_columns()),
-          walk("short_encounter", 1, short_encounter_columns()),
-          walk("safety", 1, safety_columns())};
+  return {
+      walk("moments", 7,
+           both(moments_columns(2, of_order),
+                both(order_columns(), without_values(scatter_columns))),
+           "/times/0/states/0/families/0/orders/1"),
+      walk("moments", 25,
+           both(moments_columns(5, of_samples),
+                both(without_values(order_columns()), scatter_columns)),
+           "/times/0/states/0/flown"),
+      walk("cartesian", 7, moments_columns(2, order_columns())),
+      walk("charted", 1,
+           moments_columns(3, {{"negentropy_is_sure", {"", false}},
+                               {"divergence_from_linear", {"", 2.25 / 12 + 4.0625 / 48}},
+                               {"probability_error_of_linear",
+                                {"", std::sqrt((2.25 / 12 + 4.0625 / 48) / 2)}}})),
+      walk("flown", 1, moments_columns(5, scatter_columns)),
+      Walk{of_split.at("split"), split_report, {7}, moments_columns(2, order_columns()), "", 1e-12},
+      Walk{of_split.at("domains"),
+           split_report,
+           {1},
+           {{"spacecraft", {"", "chief"}},
+            {"centre_m", {"m", {7, 8, 9}}},
+            {"centre_m_s", {"m/s", {10, 11, 12}}},
+            {"share", {"", 0.75}},
+            {"error_m", {"m", 6}}},
+           "",
+           1e-12},
+      walk("collision", 1, collision_columns()),
+      walk("whole_passage", 0, whole_passage_columns()),
+      walk("least_separation", 0, least_separation_columns()),
+      walk("approaches", 1, approaches_columns()),
+      walk("short_encounter", 1, short_encounter_columns()),
+      walk("safety", 1, safety_columns())};
 }
 
 }  // namespace hamjet::io::report_tables

@@ -303,6 +303,7 @@ inline const std::map<std::string, Place>& special_places() {
       {"validity.times_canonical", {"", {no_validity_count}}},
       {"uncertainty.acceleration_density_m2_s3",
        {"", {{"uncertainty.collision", "null"}, {"uncertainty.safety", "null"}}}},
+      {"uncertainty.most_domains", {"", {{"uncertainty.tolerance_m", "2"}}}},
       {"uncertainty.times_s", {"", {no_uncertainty_count}, "[100, 200]"}},
       {"uncertainty.times_orbits", {"", {no_uncertainty_count}}},
       {"uncertainty.times_canonical", {"", {no_uncertainty_count}}},

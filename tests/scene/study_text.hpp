@@ -81,7 +81,7 @@ class StudyText {
     add_all(s.tolerance_m, s.times, s.semi_axes, s.samples, s.frame, s.separation_m,
             s.most_domains);
   }
-  void add(const EvalSettings& s) { add_all(s.tolerance_m, s.most_domains); }
+  void add(const DomainSettings& s) { add_all(s.tolerance_m, s.most_domains); }
   void add(const Covariance& s) {
     const Matrix<double> matrix = s.matrix();
     for (const double entry : matrix.reshaped()) add(entry);
@@ -97,8 +97,8 @@ class StudyText {
     if (s.keep_out_m) add_all((*s.keep_out_m)[0], (*s.keep_out_m)[1], (*s.keep_out_m)[2]);
   }
   void add(const UncertaintySettings& s) {
-    add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.collision,
-            s.safety, s.coordinates, s.samples, s.seed);
+    add_all(s.frame, s.chief, s.deputy, s.burn, s.times, s.acceleration_density_m2_s3, s.domains,
+            s.collision, s.safety, s.coordinates, s.samples, s.seed);
   }
   void add(const AssignmentSettings& s) { add_all(s.deputies, s.slots, s.time); }
   void add(const BoundedSettings& s) {

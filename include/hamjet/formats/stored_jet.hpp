@@ -72,6 +72,9 @@ struct StoredJet {
   /// Present for flow boxes only. The series are then those of FlowBoxMap, `time` before
   /// `coordinates`, in the variables of the sections, which are fewer than those of the state.
   std::optional<StoredFlowBox> flow_box = {};
+  /// The tolerance of the table [eval] of its scene: deputies beyond it would have polynomials of
+  /// their own, which results have not.
+  std::optional<double> eval_tolerance_m = {};
   /// Notes of the reader about the file, one line each.
   std::vector<std::string> notes = {};
   std::vector<std::string> own_names =

@@ -42,6 +42,11 @@ struct SplitMap {
   std::vector<double> evaluate(std::span<const double> point) const;
 };
 
+/// The estimate by which split_domains splits: the largest error, in a box about the map's nominal,
+/// of one of the first `components`. Throws Error(numerical) for polynomials that are not finite.
+double truncation_in_box(const FlowMap<double>& map, std::span<const double> half_widths,
+                         std::size_t components);
+
 /// Splits a box into halves until the polynomials about the centre of each part are right to a
 /// tolerance. `map_about` gives the map about a centre, whose constant terms are the final state
 /// there; its errors, as those of reading it off, are not part of the estimate.

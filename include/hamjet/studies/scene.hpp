@@ -13,6 +13,7 @@
 #include "hamjet/detail/studies/integration_method.hpp"
 #include "hamjet/detail/studies/self_check_settings.hpp"
 #include "hamjet/detail/studies/system_settings.hpp"
+#include "hamjet/detail/studies/domain_settings.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 #include "hamjet/detail/studies/uncertainty_settings.hpp"
 #include "hamjet/dynamics/clock_time.hpp"
@@ -160,7 +161,7 @@ struct Scene {
   std::optional<TransferSettings> transfer;
   std::optional<ThrusterSettings> thruster;  ///< absent if velocity changes are impulses alone
   std::optional<ValiditySettings> validity;
-  std::optional<EvalSettings> eval;  ///< absent if all deputies have the polynomials of the chief
+  std::optional<DomainSettings> eval;  ///< absent if all deputies have the polynomials of the chief
   std::optional<AssignmentSettings> assignment;
   std::optional<UncertaintySettings> uncertainty;
   std::optional<BoundedSettings> bounded;

@@ -37,6 +37,8 @@ struct CollisionProbability {
   /// nearest to the radius.
   double path_error = 0;
   double standard_error = 0;
+  /// Number of pairs of parts of both distributions that were sampled; 1 for whole ones.
+  std::size_t parts = 1;
   long samples = 0;
   long hits = 0;  ///< number of samples that come nearer than the radius
   /// The number of plain samples that would have the same standard error.

@@ -42,6 +42,10 @@ struct EncounterProblem {
   double radius = 0;     ///< the sum of the radii of both bodies: a smaller distance is a collision
   int order = 3;         ///< order of the polynomials in the linear deviations at the epoch
   GaussSettings settings = {};
+  /// If given, a length: a distribution of which the polynomials are wrong by more within three
+  /// standard deviations is taken in parts, each with polynomials about its own mean.
+  std::optional<double> tolerance = {};
+  std::size_t most_parts = 256;  ///< of one spacecraft, where the tolerance alone asks for them
 
   const SharedSystem& system_of(std::size_t craft) const {
     const SharedSystem& own = spacecraft[craft].own_system;

@@ -246,7 +246,13 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
   print_note(fmt::format("frame {}; the estimates of the miss cover {}", coordinates.text(),
                          miss_covers(jets)));
   if (work.domains) report(*work.domains);
-  if (output.outside() > 0 && !work.domains) {
+  if (work.beyond_tolerance > 0) {
+    print_note(fmt::format(
+        "{} not right to {}, the tolerance of the scene's table [eval], and marked outside: "
+        "results "
+        "have one centre; hamjet eval with the scene in their place splits",
+        counted(work.beyond_tolerance, "row"), length_text(*jet.stored.eval_tolerance_m)));
+  } else if (output.outside() > 0 && !work.domains) {
     print_note(fmt::format(
         "{} of {} marked outside, beyond the polynomial's reach: its degrees do not decay at "
         "such deviations, and the numbers are sizes alone",
@@ -266,14 +272,25 @@ void report(const EvalCoordinates& coordinates, const std::vector<EvalSource>& j
   }
 }
 
-/// Carries all deviations through one jet.
+/// Marks outside what is not right to the tolerance of the scene's [eval], as a scene of one domain
+/// does; returns whether it does so.
+bool is_beyond(const std::optional<double>& tolerance_m, MissEstimate& estimate) {
+  if (!tolerance_m || (estimate.is_inside() && estimate.miss_m() <= *tolerance_m)) return false;
+  if (estimate.is_inside()) estimate.support = TruncationEstimate::Support::outside;
+  return true;
+}
+
+/// Carries all deviations through one jet; returns how many are beyond the tolerance, if one is
+/// given.
 template <class Evaluation>
-void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& deviations,
-           Evaluation& evaluation, ParameterRange* range, EvalOutput& output) {
+std::size_t carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& deviations,
+                  Evaluation& evaluation, ParameterRange* range,
+                  const std::optional<double>& tolerance_m, EvalOutput& output) {
+  std::size_t beyond = 0;
   while (true) {
     stop_if_interrupted();
     const io::NumberTable part = deviations.read(Evaluation::most_points);
-    if (part.rows() == 0) return;
+    if (part.rows() == 0) return beyond;
     for (std::size_t row = 0; row < part.rows(); ++row) {
       const std::vector<double> variables = deviations.variables(coordinates, part, row);
       if (range != nullptr) range->look(variables);
@@ -281,6 +298,7 @@ void carry(const EvalCoordinates& coordinates, double time_s, DeviationRows& dev
     }
     evaluation.run([&](const std::vector<double>& deviation, MissEstimate estimate) {
       const auto state = coordinates.final_state(deviation, evaluation.chief_error(), estimate);
+      if (is_beyond(tolerance_m, estimate)) ++beyond;
       output.add(time_s, state, estimate);
     });
   }
@@ -294,7 +312,8 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, DeviationRows& 
     const int degree = options.degree.value_or(jet.order());
     const std::size_t threads = options.threads.value_or(usable_processors());
     const auto evaluate_by = [&](auto&& evaluation) {
-      carry(coordinates, time_s, deviations, evaluation, nullptr, output);
+      work.beyond_tolerance += carry(coordinates, time_s, deviations, evaluation, nullptr,
+                                     jet.stored.eval_tolerance_m, output);
       work.add(evaluation.seconds(), evaluation.multiply_adds(),
                MapEvaluator(jet.scene->flow->polynomials(), degree));
       work.chart_seconds += evaluation.chart_seconds();
@@ -309,7 +328,8 @@ void evaluate(const EvalOptions& options, const EvalSource& jet, DeviationRows& 
     return;
   }
   JetEvaluation evaluation(jet.stored, options.degree);
-  carry(coordinates, time_s, deviations, evaluation, range, output);
+  work.beyond_tolerance += carry(coordinates, time_s, deviations, evaluation, range,
+                                 jet.stored.eval_tolerance_m, output);
   const MapEvaluator& evaluator = evaluation.evaluator();
   const std::size_t multiply_adds = evaluation.points() * evaluator.multiply_adds_per_point();
   work.add(evaluation.seconds(), static_cast<double>(multiply_adds), evaluator);

@@ -18,6 +18,8 @@ struct EvaluationWork {
   /// The multiply-adds of all points, with those of the lower degrees that estimates need.
   double all_multiply_adds = 0;
   std::optional<EvalDomains> domains = {};  ///< where the scene asks for them
+  /// Of stored results whose scene asks for domains: deputies that would need them.
+  std::size_t beyond_tolerance = 0;
 
   /// The speed of the polynomials, without the time of the charts.
   double multiply_adds_per_second() const { return all_multiply_adds / (seconds - chart_seconds); }

@@ -21,8 +21,9 @@ class Uncertainty(Study, table="moments"):
     Moments are of deviations from the chief's nominal, in m and m/s along the axes of the frame at
     each time. Further tables are attributes with columns of their own: ``cartesian`` has the moments
     by polynomials of positions and velocities along (T, S, N), ``charted`` those of the scene's
-    other coordinates, canonical, and ``flown``, along (T, S), those of samples that were flown with
-    the full equations of motion; ``collision``, ``whole_passage``, ``least_separation``,
+    other coordinates, canonical, ``split`` those by polynomials of domains (a row of ``domains`` is
+    one), and ``flown``, along (T, S), those of samples that were flown with the full equations of
+    motion; ``domains``, ``collision``, ``whole_passage``, ``least_separation``,
     ``approaches``, ``short_encounter`` and ``safety`` are there where the scene asks for them.
     """
 

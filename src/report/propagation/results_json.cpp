@@ -265,6 +265,10 @@ std::string summary_json(const PropagationResult& result) {
   json["operations"] = operations_json(result);
   json["skipped"] = skipped_json(result);
   json["warnings"] = scene.warnings;
+  if (scene.eval) {
+    json["eval"] = {{"tolerance_m", scene.eval->tolerance_m},
+                    {"most_domains", scene.eval->most_domains}};
+  }
   return json_text(json) + "\n";
 }
 

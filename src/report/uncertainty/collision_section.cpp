@@ -114,6 +114,7 @@ std::string collision_table_text(const CollisionResult& result) {
     if (p.sampling != CollisionSampling::plain) {
       text += fmt::format(", as good as {:.2g} plain ones", p.equivalent_samples);
     }
+    if (p.parts > 1) text += fmt::format(", of {} pairs of parts of both", p.parts);
     text += fmt::format("\n  in it: distances along a path are right to {:.1e} m\n", p.path_error);
     if (result.order > 1) text += lower_order_text(p, result.order);
   }

@@ -64,6 +64,11 @@ TableView collision_table(const CollisionResult& result) {
   table.add_scalar("order", "", "the order of the polynomials", result.order);
   table.add_scalar("sampling", "", "how samples were drawn",
                    collision_sampling_names[static_cast<std::size_t>(p.sampling)]);
+  table.add_scalar(
+      "parts", "",
+      "the number of pairs of parts of both distributions, each with polynomials about "
+      "its own mean, that were sampled; 1 for whole ones, 0 where no path comes near",
+      p.parts);
   add_probability(table, p);
   table.add_scalar("confidence", "", "the confidence of the intervals", result.watch.confidence);
   add_interval(table, p);

@@ -6,6 +6,7 @@
 #include "../../store/result_table.hpp"
 #include "../formation/transfer_json.hpp"
 #include "collision_table.hpp"
+#include "domains_table.hpp"
 #include "safety_table.hpp"
 #include "uncertainty_view.hpp"
 
@@ -311,7 +312,12 @@ std::vector<TableView> uncertainty_tables(const UncertaintyResult& result) {
                                  "Moments of the scene's other coordinates, canonical; nothing "
                                  "without such.",
                                  &UncertainState::charted)),
+      in_python_alone(moments_of(result, "split",
+                                 "Moments by polynomials of the scene's domains, in the frame of "
+                                 "the results; nothing without such.",
+                                 &UncertainState::split)),
       in_python_alone(flown_moments_of(result))};
+  if (!result.domains.empty()) tables.push_back(domains_table(result));
   if (result.collision) {
     for (TableView& table : collision_tables(*result.collision)) {
       tables.push_back(std::move(table));

@@ -15,9 +15,9 @@ TableView moments_table(const UncertaintyResult& result);
 TableView moments_of_polynomials(const Cumulants& moments);
 
 /// moments_table; its columns along times, states and orders, of the polynomials in Cartesian
-/// coordinates (`cartesian`), of the scene's other coordinates (`charted`) and of flown samples,
-/// without orders (`flown`); and the tables of collisions and of passive safety that the result
-/// has.
+/// coordinates (`cartesian`), of the scene's other coordinates (`charted`), of its domains
+/// (`split`) and of flown samples, without orders (`flown`); the domains; and the tables of
+/// collisions and of passive safety that the result has.
 std::vector<TableView> uncertainty_tables(const UncertaintyResult& result);
 
 }  // namespace hamjet::io

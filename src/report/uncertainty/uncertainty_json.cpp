@@ -1,4 +1,5 @@
 #include "../formation/transfer_json.hpp"
+#include "domains_table.hpp"
 #include "moments_table.hpp"
 #include "uncertainty_report.hpp"
 #include "uncertainty_view.hpp"
@@ -55,8 +56,9 @@ Json state_json(const UncertaintyResult& result, const UncertaintyAt& at,
   const auto misleads = [&](double error) {
     return result.scene.order == 1 ? Json(nullptr) : Json(error > misleading_probability);
   };
-  json["linear_misleads"] = misleads(linear_error_of_component(state.cartesian));
-  json["linear_misleads_of_combinations"] = misleads(linear_error_of_probability(state.cartesian));
+  json["linear_misleads"] = misleads(linear_error_of_component(judged_orders(state)));
+  json["linear_misleads_of_combinations"] =
+      misleads(linear_error_of_probability(judged_orders(state)));
   return json;
 }
 
@@ -78,6 +80,18 @@ Json uncertainty_json(const UncertaintyResult& result) {
     json["times"].push_back({{"time_canonical", told_time(result.scene, at.time)},
                              {"time_s", at.time * result.scene.units.time_s},
                              {"states", states}});
+  }
+  if (!result.domains.empty()) {
+    json["split"] = Json::array();
+    for (const UncertaintyDomains& of : result.domains) {
+      json["split"].push_back({{"spacecraft", of.spacecraft},
+                               {"count", of.domains.size()},
+                               {"jets", of.maps},
+                               {"right", of.is_right},
+                               {"error_m", of.error_m},
+                               {"quadrature_doubt", of.doubt}});
+    }
+    json.update(table_json(domains_table(result)));
   }
   if (!result.parameter_effects.empty()) {
     Json effects = Json::array();

@@ -13,6 +13,7 @@
 #include "../drawing/report_page.hpp"
 #include "../study_checks.hpp"
 #include "collision_section.hpp"
+#include "domains_table.hpp"
 #include "hamjet/error.hpp"
 #include "moments_table.hpp"
 #include "safety_section.hpp"
@@ -34,7 +35,7 @@ std::vector<std::vector<std::string>> moments_rows(const UncertaintyResult& resu
     }
   }
   const Cumulants& linear = state.cartesian.front();
-  const Cumulants& full = state.cartesian.back();
+  const Cumulants full = judged_orders(state).back();
   const auto components = state_components(result);
   for (std::size_t k = 0; k < components.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -255,6 +256,9 @@ StudyReport uncertainty_report(const UncertaintyResult& result, const ReportOrig
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"moments.csv", table_csv(moments_table(result))},
                   {"report.html", page(result, origin, sections, drawer)}};
+  if (!result.domains.empty()) {
+    report.files.push_back({"domains.csv", table_csv(domains_table(result))});
+  }
   for (const UncertaintySection& section : sections) {
     report.files.insert(report.files.end(), section.files.begin(), section.files.end());
   }

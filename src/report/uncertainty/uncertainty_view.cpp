@@ -66,16 +66,16 @@ std::optional<Combination> worst_combination(const std::vector<Cumulants>& by_or
 }
 
 /// The verdict where the linear covariance is right of each component but not of all together.
-std::string combinations_text(const UncertainState& state, double of_components, double of_all,
-                              int order) {
+std::string combinations_text(const std::vector<Cumulants>& by_order, double of_components,
+                              double of_all, int order) {
   std::string text = fmt::format(
       "holds for each component alone, of which a probability may be wrong by up to {}, but not "
       "for all together, of which one may be wrong by {}{}",
       probability_text(of_components), of_all >= 1 ? "" : "up to ", probability_text(of_all));
-  if (state.cartesian.back().rank() > state.cartesian.front().rank()) {
+  if (by_order.back().rank() > by_order.front().rank()) {
     text +=
         fmt::format(": in some combination it has no spread at all, where order {} has one", order);
-  } else if (const auto worst = worst_combination(state.cartesian)) {
+  } else if (const auto worst = worst_combination(by_order)) {
     text += fmt::format(
         ": most where one linear standard deviation is {:.2g} m and {:.2g} m/s, by order {} {:.3g} "
         "times that",
@@ -103,6 +103,8 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
   const std::string name(name_of(result.coordinates));
   if (!state.through.empty())
     families.push_back({name, frame, &state.through, &state.cartesian.front(), components});
+  if (!state.split.empty())
+    families.push_back({"domains", frame, &state.split, &state.cartesian.front(), components});
   if (!state.charted.empty()) {
     std::vector<StateComponent> coordinates;
     for (const std::string& coordinate : at.charted_names) coordinates.push_back({coordinate, ""});
@@ -123,6 +125,11 @@ std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
     }
   }
   return families;
+}
+
+std::vector<Cumulants> judged_orders(const UncertainState& state) {
+  if (state.split.empty()) return state.cartesian;
+  return {state.cartesian.front(), state.split.back()};
 }
 
 std::vector<GaussianityInCoordinates> gaussianity_in_coordinates(const UncertaintyResult& result,
@@ -171,7 +178,7 @@ double linear_error_of_component(const std::vector<Cumulants>& by_order) {
 std::string uncertainty_answer(const UncertaintyResult& result) {
   const UncertaintyAt& at = result.points.back();
   const UncertainState& state = judged_state(at);
-  const Vector<double> deviations = state.cartesian.back().standard_deviations();
+  const Vector<double> deviations = judged_orders(state).back().standard_deviations();
   const std::vector<StateComponent> components = state_components(result);
   const auto along = [&](std::size_t i) {
     return fmt::format("{} along {}", length_text(deviations[static_cast<Eigen::Index>(i)]),
@@ -191,14 +198,15 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
         "The covariance is known to first order alone, which cannot say how far it misleads; a "
         "jet.order of 2 or more does.";
   } else {
-    const double error = linear_error_of_component(state.cartesian);
-    const double of_all = linear_error_of_probability(state.cartesian);
+    const std::vector<Cumulants> by_order = judged_orders(state);
+    const double error = linear_error_of_component(by_order);
+    const double of_all = linear_error_of_probability(by_order);
     const bool misleads = of_all > misleading_probability;
-    const Eigen::Index worst = worst_component(state.cartesian);
+    const Eigen::Index worst = worst_component(by_order);
     const StateComponent component = state_components(result)[static_cast<std::size_t>(worst)];
     const std::string judgement =
         misleads && error <= misleading_probability
-            ? combinations_text(state, error, of_all, order)
+            ? combinations_text(by_order, error, of_all, order)
             : fmt::format("{}: a probability {} may be wrong by {}{}",
                           misleads ? "misleads" : "holds",
                           misleads ? "of one component alone" : "that it gives",
@@ -208,9 +216,8 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
         "By then the linear covariance of {} {}; the standard deviation along {} is {:.4g} {} by "
         "order "
         "{}, and {:.4g} {} by the linear theory.",
-        told_state(state), judgement, component.name,
-        state.cartesian.back().standard_deviations()[worst], component.unit, order,
-        state.cartesian.front().standard_deviations()[worst], component.unit);
+        told_state(state), judgement, component.name, by_order.back().standard_deviations()[worst],
+        component.unit, order, by_order.front().standard_deviations()[worst], component.unit);
     if (!state.charted.empty()) {
       const double charted = linear_error_of_probability(state.charted);
       text += fmt::format(
@@ -261,6 +268,43 @@ bool has_uncertain_negentropy(const UncertaintyResult& result) {
     }
   }
   return false;
+}
+
+/// What the deviations of a spacecraft were split into.
+std::string domains_text(const UncertaintyResult& result, const UncertaintyDomains& of) {
+  const DomainSettings& settings = *result.scene.uncertainty->domains;
+  if (of.domains.size() == 1 && of.is_right) {
+    return fmt::format(
+        "One jet about the mean of the {} is right to {} within 3 standard deviations, by an "
+        "estimate of {:.2g} m: nothing is split.",
+        of.spacecraft, length_text(settings.tolerance_m), of.error_m);
+  }
+  const auto components = component_names(result.scene.uncertainty->frame);
+  Vector<double> lowest = of.domains.front().centre, highest = lowest;
+  for (const UncertaintyDomain& domain : of.domains) {
+    lowest = lowest.cwiseMin(domain.centre);
+    highest = highest.cwiseMax(domain.centre);
+  }
+  std::string where;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (!(highest[i] > lowest[i])) continue;
+    where += fmt::format("{}{:.3g} to {:.3g} {} along {}", where.empty() ? "" : ", ", lowest[i],
+                         highest[i], i < 3 ? "m" : "m/s", components[static_cast<std::size_t>(i)]);
+  }
+  std::string text = fmt::format(
+      "Within 3 standard deviations the {} is split into {} domains, whose centres lie {} from its "
+      "mean ({} jets were integrated); positions are right to {:.2g} m, by estimates",
+      of.spacecraft, of.domains.size(), where, of.maps, of.error_m);
+  if (!of.is_right) {
+    text += fmt::format(
+        ", and not to {}, for which most_domains ({}) would have to be more, or jet.order",
+        length_text(settings.tolerance_m), settings.most_domains);
+  }
+  return text +
+         fmt::format(
+             ". Moments of domains are by quadrature, which a rule of fewer nodes changes by "
+             "{:.1g} at most.",
+             of.doubt);
 }
 
 }  // namespace
@@ -319,6 +363,7 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
                           "chief for polynomials about it.",
                           frame_name(settings.frame), name_of(result.coordinates)));
   }
+  for (const UncertaintyDomains& of : result.domains) notes.push_back(domains_text(result, of));
   for (const MomentsInCoordinates& compared : result.in_coordinates) {
     if (compared.refusal.empty()) continue;
     notes.push_back(fmt::format("No moments in {} coordinates: {}.", name_of(compared.coordinates),
@@ -331,7 +376,9 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
         "distribution is far from Gaussian.");
   }
   for (const UncertainState& state : result.points.back().states) {
-    const std::vector<Cumulants>& told = state.through.empty() ? state.cartesian : state.through;
+    const std::vector<Cumulants>& told = !state.split.empty()    ? state.split
+                                         : state.through.empty() ? state.cartesian
+                                                                 : state.through;
     // Of order 2 nothing is known of convergence: what it changes is what is told of it.
     if (told.size() < 3) continue;
     const MomentsDifference change = difference_of(told.back(), told[told.size() - 2]);

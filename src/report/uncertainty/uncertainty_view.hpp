@@ -29,6 +29,10 @@ struct MomentsFamily {
 std::vector<MomentsFamily> moments_families(const UncertaintyResult& result,
                                             const UncertaintyAt& at, const UncertainState& state);
 
+/// The linear theory's distribution and the best known one, or all orders' of the polynomials about
+/// the mean where there are no domains.
+std::vector<Cumulants> judged_orders(const UncertainState& state);
+
 /// How far from Gaussian a state at the last time is, each in its own coordinates, by name and the
 /// nearest first; with whatever the orbit has not, and why.
 struct GaussianityInCoordinates {

@@ -36,6 +36,10 @@ EncounterProblem encounter_problem(const Scene& scene, const CollisionWatch& wat
   const EncounterSystems systems(scene);
   EncounterProblem problem =
       empty_encounter(scene, systems.chief, watch.from, watch.to, watch.radius_m / units.length_m);
+  if (const auto& domains = scene.uncertainty->domains) {
+    problem.tolerance = domains->tolerance_m / units.length_m;
+    problem.most_parts = static_cast<std::size_t>(domains->most_domains);
+  }
   bool is_uncertain = false;
   for (const InitialState& start : initial_states(scene)) {
     UncertainSpacecraft& craft = problem.spacecraft[start.is_chief() ? 0 : 1];
@@ -288,6 +292,13 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
     result.whole_from_s = whole->from * units.time_s;
     result.whole_to_s = whole->to * units.time_s;
     result.warnings.push_back(cut_warning(result));
+  }
+  const double path_error_m = probability_of_passage(result).path_error;
+  if (problem.tolerance && path_error_m > scene.uncertainty->domains->tolerance_m) {
+    result.warnings.push_back(fmt::format(
+        "distances along a path are right to {:.2g} m and not to tolerance_m: a higher jet.order "
+        "or most_domains would be needed",
+        path_error_m));
   }
   settings.samples = separation_samples;
   if (progress) {

@@ -9,13 +9,13 @@
 #include <numbers>
 #include <numeric>
 
-#include "../../algebra/singular_values.hpp"
 #include "../checks/flight_checks.hpp"
 #include "../formation/charts/deputy_flows.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../nominal/nominal_period.hpp"
 #include "../stopwatch.hpp"
+#include "domain_moments.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
@@ -35,20 +35,6 @@ namespace {
 /// Nodes of the quadrature through curved coordinates: most along what the flow stretches most.
 const std::vector<int> finer_nodes = {15, 7, 5, 3, 3, 3};
 const std::vector<int> coarser_nodes = {11, 5, 3, 3, 3, 3};
-
-/// The same polynomials in standard normal variables that are turned so that the first is the one
-/// that the linear flow stretches most.
-Matrix<double> stretched_factor(const Covariance& covariance, const Matrix<double>& linear) {
-  Matrix<double> square = Matrix<double>::Zero(6, 6);
-  const Matrix<double> stretched = linear * covariance.factor();
-  if (stretched.cols() > 6) {
-    const Cumulants whole(Vector<double>::Zero(6), covariance);
-    return stretched_factor(Covariance::of_factor(whole.axes()), linear);
-  }
-  square.leftCols(stretched.cols()) = stretched;
-  const SingularValueDecomposition parts = decompose_by_singular_values(square);
-  return covariance.factor() * parts.right.topLeftCorner(stretched.cols(), stretched.cols());
-}
 
 /// The distributions that a flow's polynomials up to each degree from 1 give, at the nodes of a
 /// quadrature; none where one of them has no place in the coordinates.
@@ -286,6 +272,8 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   std::vector<Matrix<double>> linear_flows;  ///< at the time, along the frame
   std::vector<MeanOfStart> means(starts.size());
   std::optional<Covariance> noise_at_end;
+  std::vector<TimeOfDomains> times_of_domains;
+  std::vector<Matrix<double>> own_linear_parts;  ///< at the last time
   for (std::size_t t = 0; t < settings.times.size(); ++t) {
     const double time = settings.times[t];
     if (progress) {
@@ -355,12 +343,20 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
       map_all(relative, to_frame);
     }
     linear_flows.clear();
+    own_linear_parts.clear();
     for (const FlowJet<double>& own : own_jets_at) {
-      linear_flows.push_back(to_frame * linear_part(own));
+      own_linear_parts.push_back(linear_part(own));
+      linear_flows.push_back(to_frame * own_linear_parts.back());
     }
+    times_of_domains.push_back(
+        {Eigen::Map<const Vector<double>>(chief.data(), 6), to_frame, added});
     result.points.push_back(std::move(at));
     jet_at_end = jet;
     noise_at_end = added;
+  }
+  if (settings.domains) {
+    const Stopwatch watch(result.moments_seconds);
+    set_domains(result, starts, integrator, own_linear_parts, times_of_domains, progress);
   }
   result.parameter_effects = parameter_effects(starts, linear_flows);
   result.checks = flight_checks(scene, flights_of(scene, settings.times.back(), true));

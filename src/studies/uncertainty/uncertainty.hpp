@@ -33,6 +33,24 @@ struct FlownMoments {
 /// The moments of flown states, which are columns of six numbers.
 FlownMoments flown_moments(const Matrix<double>& states);
 
+/// A part of the deviations of a start that has polynomials about a centre of its own.
+struct UncertaintyDomain {
+  Vector<double> centre;  ///< from the start's mean, m and m/s along the frame of the results
+  double share = 0;       ///< of all deviations, by their distribution
+  double error_m = 0;     ///< estimate of the largest error of a coordinate of the position
+};
+
+/// What the deviations of a spacecraft were split into.
+struct UncertaintyDomains {
+  std::string spacecraft;
+  std::vector<UncertaintyDomain> domains;
+  std::size_t maps = 0;  ///< that were integrated, those of domains that were split too
+  bool is_right = true;  ///< whether all estimates are within the tolerance
+  double error_m = 0;    ///< the largest estimate
+  /// How far the quadrature is from one of fewer nodes, as UncertainState::through_doubt.
+  double doubt = 0;
+};
+
 /// The distribution of one spacecraft's state at one time, or of the difference of two. All
 /// distributions of states are of deviations from the chief's nominal, metres and metres a second
 /// along the frame's axes at the time; by the orders 1..N.
@@ -46,6 +64,8 @@ struct UncertainState {
   /// How far the quadrature is from one of fewer nodes, over the orders: relative, of standard
   /// deviations, and absolute, of skewness and kurtosis.
   double through_doubt = 0;
+  /// By the polynomials of positions and velocities of the scene's domains; empty without such.
+  std::vector<Cumulants> split;
   /// Moments of the scene's other coordinates themselves, exact for their polynomials; empty if the
   /// scene has no other coordinates.
   std::vector<Cumulants> charted;
@@ -88,6 +108,7 @@ struct UncertaintyResult {
   /// Why starts are Gaussian in elements where the scene leaves the choice open, as sentences.
   std::vector<std::string> start_notes;
   std::vector<UncertaintyAt> points;
+  std::vector<UncertaintyDomains> domains;  ///< of each uncertain spacecraft, if the scene asks
   std::vector<ParameterEffect> parameter_effects;    ///< of every uncertain parameter
   std::vector<MomentsInCoordinates> in_coordinates;  ///< as `uncertainty.coordinates` asks
   std::optional<CollisionResult> collision;          ///< if the scene asks for it

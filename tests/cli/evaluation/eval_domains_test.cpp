@@ -69,5 +69,23 @@ TEST_F(EvalDomains, LimitIsToldAndMarked) {
                {"far.toml", "eval: no estimate of the miss to split deputies by"});
 }
 
+// Results have polynomials about the chief alone. Expected: what the scene marks with one domain.
+TEST_F(EvalDomains, StoredResultsMarkWhatIsNotRight) {
+  store("stored", circular_scene + small_tolerance);
+  write("one.toml", circular_scene + small_tolerance + "most_domains = 1\n");
+  write("in.csv", deputies());
+  const Json stored = eval_json({"stored", "--deviations", "in.csv"});
+  const Json one = eval_json({"one.toml", "--deviations", "in.csv"});
+  EXPECT_GT(stored["outside"].get<int>(), 2);
+  EXPECT_LT(stored["outside"].get<int>(), 17);
+  EXPECT_EQ(stored["outside"], one["outside"]);
+  EXPECT_TRUE(stored["domains"].is_null());
+  const CommandResult outcome = hamjet({"eval", "stored", "--deviations", "in.csv"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("not right to 1 cm"), std::string::npos) << outcome.err;
+  store("free", circular_scene);
+  EXPECT_EQ(eval_json({"free", "--deviations", "in.csv"})["outside"], 0);
+}
+
 }  // namespace
 }  // namespace hamjet::test

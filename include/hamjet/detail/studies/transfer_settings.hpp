@@ -168,13 +168,6 @@ struct ValiditySettings {
   int most_domains = 256;
 };
 
-/// Table `[eval]`: domains about centres of their own, into which deputies beyond the reach of the
-/// polynomials about the chief are split.
-struct EvalSettings {
-  double tolerance_m = 1;  ///< of every deputy's final position
-  int most_domains = 256;
-};
-
 /// The deputy in a box: one held at rest at a place, or a deputy of `[bounded]`.
 enum class BoxReference { rest, member };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hamjet/charts/jet_coordinates.hpp"
+#include "hamjet/detail/studies/domain_settings.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
 #include "hamjet/uncertainty/collision_choices.hpp"
 #include "hamjet/uncertainty/covariance.hpp"
@@ -105,6 +106,9 @@ struct UncertaintySettings {
   std::vector<double> times;  ///< in canonical units, moving away from 0; none is 0
   double acceleration_density_m2_s3 =
       0;  ///< power spectral density of white noise in the acceleration, for each axis; 0 for none
+  /// If given, the deviations within three standard deviations are split into domains where the
+  /// polynomials of positions and velocities are not right.
+  std::optional<DomainSettings> domains;
   std::optional<CollisionWatch> collision;
   std::optional<SafetyWatch> safety;
   /// Coordinates other than the scene's in which the distribution at the last time is given too.
