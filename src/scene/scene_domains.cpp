@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "scene_relative_motion.hpp"
 
 namespace hamjet::io {
 
-std::vector<SceneKey> domain_keys(const Absence& tolerance, std::string tolerance_meaning,
-                                  std::string most_meaning) {
+std::vector<SceneKey> domain_keys(const Absence& tolerance, std::string_view tolerance_meaning,
+                                  std::string_view most_meaning) {
   constexpr int most = 10000;
   static const DomainSettings preset;
-  return {{"tolerance_m", form::positive(), tolerance, std::move(tolerance_meaning)},
-          {"most_domains", form::integer(1, most), absent::value(preset.most_domains),
-           std::move(most_meaning)}};
+  return {
+      {"tolerance_m", form::positive(), tolerance, tolerance_meaning},
+      {"most_domains", form::integer(1, most), absent::value(preset.most_domains), most_meaning}};
 }
 
 DomainSettings read_domains(const TableReader& table, const Scene& scene, std::string_view what) {

@@ -85,8 +85,8 @@ std::vector<double> read_deviations(const TableReader& table, std::string_view k
 /// The keys `tolerance_m` and `most_domains` of a table whose set is split into domains; the
 /// absences and meanings say what holds in it. A scene of order 1 is refused: nothing says what is
 /// right in it. `what` is split.
-std::vector<SceneKey> domain_keys(const Absence& tolerance, std::string tolerance_meaning,
-                                  std::string most_meaning);
+std::vector<SceneKey> domain_keys(const Absence& tolerance, std::string_view tolerance_meaning,
+                                  std::string_view most_meaning);
 DomainSettings read_domains(const TableReader& table, const Scene& scene, std::string_view what);
 
 /// The start of the scene's deputy in the frame of another table.
