@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "hamjet/error.hpp"
 #include "hamjet/scene/scene_reader.hpp"
 #include "studies/uncertainty/quadrature.hpp"
 #include "studies/uncertainty/uncertainty.hpp"
@@ -275,6 +276,25 @@ TEST(UncertaintyDomains, OneDomainHasTheMomentsOfItsPolynomials) {
       EXPECT_NEAR(by_quadrature[3], exact[3], 1e-6) << n << ' ' << i;
     }
   }
+}
+
+TEST(UncertaintyDomains, KeysThatSplitNothingAreRefused) {
+  const std::string known = "[uncertainty]\nposition_m = [10, 10, 10]\n";
+  const auto message_of = [&](int order, const std::string& keys) -> std::string {
+    try {
+      scene_of(order, 1, known + keys);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message_of(2, "tolerance_m = 1\nmost_domains = 7\n"), "");
+  EXPECT_NE(message_of(2, "most_domains = 7\n").find("uncertainty.most_domains: nothing is split"),
+            std::string::npos);
+  EXPECT_NE(
+      message_of(1, "tolerance_m = 1\n").find("no estimate of the miss to split deviations by"),
+      std::string::npos);
+  EXPECT_NE(message_of(2, "tolerance_m = 0\n").find("uncertainty.tolerance_m"), std::string::npos);
 }
 
 // With phi the density and P the probability of an interval, the means of x and x^2 within it are
