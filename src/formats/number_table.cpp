@@ -130,7 +130,8 @@ std::optional<Extended> finite_extended_number(std::string_view text) {
   if (!rest.empty()) return std::nullopt;
   Extended number{std::string(text)};
   if (!isfinite(number)) return std::nullopt;
-  return text.starts_with('-') == signbit(number) ? number : -number;  // -0
+  const bool is_negative = signbit(number) != 0;
+  return text.starts_with('-') == is_negative ? number : -number;  // -0
 }
 
 NumberTableReader::NumberTableReader(std::string name, std::vector<std::string_view> columns,

@@ -28,7 +28,7 @@ const std::string cubic_kepler =
     changed(planar_kepler, "order = 2", "order = 3") + "[generating_function]\nkinds = [\"F1\"]\n";
 
 /// The same number with the same sign, zero included.
-bool same(const Extended& a, const Extended& b) { return a == b && signbit(a) == signbit(b); }
+bool same(const Extended& a, const Extended& b) { return a == b && !signbit(a) == !signbit(b); }
 
 class JetFileTest : public ::testing::Test {
  protected:
