@@ -10,10 +10,10 @@
 
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/detail/integrators/flow_symmetry.hpp"
+#include "hamjet/detail/studies/domain_settings.hpp"
 #include "hamjet/detail/studies/integration_method.hpp"
 #include "hamjet/detail/studies/self_check_settings.hpp"
 #include "hamjet/detail/studies/system_settings.hpp"
-#include "hamjet/detail/studies/domain_settings.hpp"
 #include "hamjet/detail/studies/transfer_settings.hpp"
 #include "hamjet/detail/studies/uncertainty_settings.hpp"
 #include "hamjet/dynamics/clock_time.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "../real_number.hpp"
-#include "hamjet/detail/algebra/pack.hpp"
 #include "component_units.hpp"
+#include "hamjet/detail/algebra/pack.hpp"
 #include "hamjet/dynamics/dynamical_system.hpp"
 #include "stage_coefficients.hpp"
 #include "stage_elimination.hpp"
@@ -182,13 +182,14 @@ class StageSystem {
     return sum;
   }
 
-  /// Whether the magnitudes of every row of W (x) Dg, in ComponentUnits, add up to at most 1/2, as in
-  /// all steps that converge well. Parameters are at rest: their columns are those of the identity
-  /// but for what they add to other rows, and need no pivots. The matrix I - W (x) Dg is then dominated by its diagonal, by at least 1/2 in
-  /// every row. So is the rest of the matrix after some pivots, whose blocks have inverses of at
-  /// most 2 in the maximum norm (Varah, Linear Algebra Appl. 11 (1975) 3). Elimination needs no
-  /// pivoting, not even by blocks (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed.,
-  /// theorem 9.9 and sections 13.3 and 14.4). Returns false if a number is not finite.
+  /// Whether the magnitudes of every row of W (x) Dg, in ComponentUnits, add up to at most 1/2, as
+  /// in all steps that converge well. Parameters are at rest: their columns are those of the
+  /// identity but for what they add to other rows, and need no pivots. The matrix I - W (x) Dg is
+  /// then dominated by its diagonal, by at least 1/2 in every row. So is the rest of the matrix
+  /// after some pivots, whose blocks have inverses of at most 2 in the maximum norm (Varah, Linear
+  /// Algebra Appl. 11 (1975) 3). Elimination needs no pivoting, not even by blocks (Higham,
+  /// Accuracy and Stability of Numerical Algorithms, 2nd ed., theorem 9.9 and sections 13.3
+  /// and 14.4). Returns false if a number is not finite.
   template <class Gradient>
   bool has_dominant_diagonal(const Gradient& gradient) const {
     P largest(Real(0));

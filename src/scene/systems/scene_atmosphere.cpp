@@ -153,8 +153,8 @@ std::vector<SceneKey> atmosphere_keys() {
        "densities of the `table` at its heights; between them ln of the density is smooth", owner}};
 }
 
-/// From a quiet Sun to an active one the density at 500 km grows some twentyfold (Montenbruck and
-/// Gill, Satellite Orbits, section 3.5), and the tables are of a mean one.
+/// The limits are far outside what the Sun does to the air, so that what they find is a slip: a
+/// percentage, or a density.
 void warn_of_factor(const TableReader& system, double factor) {
   constexpr double least = 0.02, most = 50;
   if (factor >= least && factor <= most) return;

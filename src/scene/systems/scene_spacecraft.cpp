@@ -63,7 +63,7 @@ void warn_of_unit(const TableReader& table, std::string_view key, const Coeffici
                                            : "is the mass in g, or the coefficient km^2/kg"));
 }
 
-/// In free molecular flow C_D is from 2 to 4, by shape and surface.
+/// The limits are far outside what is used, so that what they find is a slip, as 220 for 2.2.
 void warn_of_drag_coefficient(const TableReader& table, double factor) {
   constexpr double least = 1, most = 6;
   if (factor >= least && factor <= most) return;
