@@ -79,7 +79,7 @@ using JetState =
                std::vector<double>, std::vector<double>, std::vector<std::size_t>,
                std::vector<std::size_t>, std::optional<Ephemeris>, std::vector<double>, std::size_t,
                std::size_t, std::optional<FlowBoxState>, int, double, bool,
-               std::vector<std::string>, std::size_t>;
+               std::vector<std::string>, std::size_t, std::optional<double>>;
 
 std::optional<FlowBoxState> state_of(const std::optional<io::StoredFlowBox>& box) {
   if (!box) return std::nullopt;
@@ -92,7 +92,7 @@ JetState state_of(const io::StoredJet& stored) {
   // The notes are of the file that was read, and have been said.
   const auto& [scene, label, model, precision, units, duration, start_time, is_autonomous,
                nominal_initial, nominal_final, components, variables, ephemeris, error_by_degree,
-               coordinates, flow_box, notes, own_names, parameters, jet] = stored;
+               coordinates, flow_box, eval_tolerance_m, notes, own_names, parameters, jet] = stored;
   return {scene,
           label,
           static_cast<std::size_t>(model),
@@ -113,7 +113,8 @@ JetState state_of(const io::StoredJet& stored) {
           start_time.in<double>(),
           is_autonomous,
           own_names,
-          parameters};
+          parameters,
+          eval_tolerance_m};
 }
 
 std::optional<io::StoredFlowBox> flow_box_of(const std::optional<FlowBoxState>& state) {
@@ -149,7 +150,7 @@ io::StoredJet stored_jet_of(const JetState& state) {
   std::tie(jet.scene, jet.label, model, precision, jet.units.length_km, jet.units.time_s,
            jet.duration, jet.nominal_initial, jet.nominal_final, jet.components, jet.variables,
            ephemeris, jet.error_by_degree, start, end, flow_box, std::ignore, start_time,
-           jet.is_autonomous, jet.own_names, jet.parameters) = state;
+           jet.is_autonomous, jet.own_names, jet.parameters, jet.eval_tolerance_m) = state;
   constexpr std::size_t coordinates = jet_coordinates_names.size();
   if (model >= model_names().size() || precision > 1 || start >= coordinates ||
       end >= coordinates) {
