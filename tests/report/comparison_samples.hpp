@@ -28,8 +28,11 @@ inline ComparedRun sample_run(const std::string& series, const std::string& labe
   run.error_by_degree = {error, 2 * error, error / 3};
   run.error_estimate_by_degree = {3 * error, 5 * error, error};
   run.error_at_formation_m = 1e6 * error;
-  run.exactness = {{{0, 1e-15, 3e-16, 1e-9}, ExactnessResidual{0, 2e-15, 1e-15, std::nullopt}},
-                   {{1, 5e-13, 7e-14, std::nullopt}, std::nullopt}};
+  run.exactness = {{{0, 1e-15, 3e-16, 1e-9},
+                    ExactnessResidual{0, 2e-15, 1e-15, std::nullopt},
+                    std::nullopt,
+                    std::nullopt},
+                   {{1, 5e-13, 7e-14, std::nullopt}, std::nullopt, std::nullopt, std::nullopt}};
   run.symplecticity = {{0, 4e-16, 1.1e-16}, {1, 5e-16, 2.2e-16}};
   run.energy_error = 4.4e-16;
   run.corner = Corner::exact_and_accurate;

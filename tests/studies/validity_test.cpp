@@ -154,7 +154,7 @@ samples = 43
   DeputyFlowPropagation propagation(scene, problem, scene.integrators[0],
                                     {JetCoordinates::nodal, JetCoordinates::nodal});
   const std::unique_ptr<DeputyFlow> flow = propagation.advance_to(scene.duration);
-  FlownDeputies deputies(problem, axes, scene.duration, *flow, [] {});
+  FlownDeputies deputies(problem, axes, scene.duration, *flow, nullptr, [] {});
   const double metres = metric_units(scene).length_m;
   EXPECT_LE(deputies.miss(entry.proved_m / metres * deputy, 3) * metres,
             scene.validity->tolerance_m);
@@ -174,7 +174,7 @@ TEST(Validity, GradientsOfMissesAreTheirDifferences) {
   for (const JetCoordinates kind : {JetCoordinates::cartesian, JetCoordinates::nodal}) {
     DeputyFlowPropagation propagation(scene, problem, scene.integrators[0], {kind, kind});
     const std::unique_ptr<DeputyFlow> flow = propagation.advance_to(time);
-    FlownDeputies deputies(problem, axes, time, *flow, [] {});
+    FlownDeputies deputies(problem, axes, time, *flow, nullptr, [] {});
     for (const int order : {1, 2}) {
       Vector6 differences;
       for (Eigen::Index i = 0; i < 6; ++i) {

@@ -79,7 +79,7 @@ TEST(DrivenStudies, Validity) {
   const std::vector<double> chief = chief_at(scene, time);
   DeputyFlowPropagation propagation(scene, problem, precise_gauss(), JetCoordinates::cartesian);
   const auto flow = propagation.advance_to(time);
-  FlownDeputies deputies(problem, axes, time, *flow, {});
+  FlownDeputies deputies(problem, axes, time, *flow, nullptr, {});
   Vector6 coordinates;
   coordinates << 1e-3, -2e-3, 1e-3, 1e-3, 1e-3, -1e-3;
   const SixNumbers<double> deviation = deputies.deviation(coordinates);

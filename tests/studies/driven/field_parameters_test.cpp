@@ -23,7 +23,7 @@ namespace {
 
 using test::Numbers;
 
-constexpr int degree = 12;
+constexpr int field_degree = 12;
 constexpr double duration_s = 2500;
 
 std::string text_of(const std::string& variable) {
@@ -44,7 +44,7 @@ order = 3
 duration_s = {}
 variables = ["x", "y", "z", "px", "py", "pz", "{}"]
 )",
-                     degree, duration_s, variable);
+                     field_degree, duration_s, variable);
 }
 
 /// The matrix from GCRF to ITRF at seconds after the scene's epoch, with UT1 = UTC and no polar
@@ -80,7 +80,7 @@ class EarthAxes {
 };
 
 using Real = Extended;
-using Triangle = std::array<std::array<Real, degree + 2>, degree + 2>;
+using Triangle = std::array<std::array<Real, field_degree + 2>, field_degree + 2>;
 
 /// Coefficients that are not normalised, of mu = 1.
 struct Field {
@@ -102,12 +102,12 @@ std::array<Real, 3> acceleration(const Field& field, const std::array<Real, 3>& 
   const Real fall = R * R / square;
   Triangle V{}, W{};
   V[0][0] = R / sqrt(square);
-  for (int m = 0; m <= degree + 1; ++m) {
+  for (int m = 0; m <= field_degree + 1; ++m) {
     if (m > 0) {
       V[m][m] = (2 * m - 1) * (x * V[m - 1][m - 1] - y * W[m - 1][m - 1]);
       W[m][m] = (2 * m - 1) * (x * W[m - 1][m - 1] + y * V[m - 1][m - 1]);
     }
-    for (int n = m + 1; n <= degree + 1; ++n) {
+    for (int n = m + 1; n <= field_degree + 1; ++n) {
       const Real before = Real(n + m - 1) / (n - m) * fall;
       const Real ahead = Real(2 * n - 1) / (n - m) * z;
       V[n][m] = ahead * V[n - 1][m] - (n > m + 1 ? Real(before * V[n - 2][m]) : Real(0));
@@ -115,7 +115,7 @@ std::array<Real, 3> acceleration(const Field& field, const std::array<Real, 3>& 
     }
   }
   std::array<Real, 3> a{};
-  for (int n = 0; n <= degree; ++n) {
+  for (int n = 0; n <= field_degree; ++n) {
     for (int m = 0; m <= n; ++m) {
       const Real C = field.C[n][m], S = field.S[n][m];
       if (m == 0) {
@@ -139,7 +139,7 @@ Field field_of(const Scene& scene) {
   Field field;
   const auto& coefficients = *scene.system.earth->field;
   field.radius = Real(scene.system.radius_km) / scene.units.length_km;
-  for (int n = 0; n <= degree; ++n) {
+  for (int n = 0; n <= field_degree; ++n) {
     for (int m = 0; m <= n; ++m) {
       field.C[n][m] = coefficients.C(n, m) * norm_of(n, m);
       field.S[n][m] = coefficients.S(n, m) * norm_of(n, m);
@@ -216,7 +216,8 @@ TEST(FieldParameters, CoefficientsThatTheFieldLacksAreRefused) {
     test::expect_error([&] { io::parse_scene(text_of(name), "earth.toml"); }, ErrorKind::scene,
                        parts, name);
   };
-  refuse("J13", {":16:", "beyond the field of degree 12, got \"J13\"", "gravity_degree = 13"});
+  refuse("J13",
+         {":16:", "beyond the field of degree 12, got \"J13\"", "gravity_degree = 13"});
   refuse("C_13_1", {"beyond the field of degree 12", "gravity_degree = 13"});
   refuse("C34", {"of order 4 above its degree 3"});
   refuse("C20", {"zonal, got \"C20\"", "or J2, which is -sqrt(5) times it"});
