@@ -214,7 +214,9 @@ class StageSlopes {
   const ComponentUnits& units() const { return units_; }
 
   /// Forms B and, if asked for, K at the present stages; returns false if the matrix is singular.
-  bool factorise(Response response = Response::formed) {
+  /// Not inlined: copies may fuse products and sums otherwise, and a jet along a known nominal
+  /// would have other last bits than one that is integrated with it.
+  [[gnu::noinline]] bool factorise(Response response = Response::formed) {
     return system_.factorise(
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, response);
   }
