@@ -14,6 +14,7 @@
 #include "../scene/document/scene_text.hpp"
 #include "../scene/scene_sections.hpp"
 #include "../text/scene_message.hpp"
+#include "arithmetic_scope.hpp"
 #include "bindings.hpp"
 #include "given_scene.hpp"
 #include "hamjet/error.hpp"
@@ -135,6 +136,7 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 GivenScene scene_of_text(const std::string& text, const std::string& name,
                          const Overrides& overrides) {
+  const ArithmeticScope arithmetic;
   const auto read = [&](io::SceneUnits units) {
     return io::parse_study(text, name, overrides_of(overrides), units);
   };
@@ -148,6 +150,7 @@ GivenScene scene_of_file(const std::filesystem::path& file, const Overrides& ove
 
 GivenScene scene_of_tables(const py::object& mapping, const std::string& name,
                            const Overrides& overrides) {
+  const ArithmeticScope arithmetic;
   const io::SceneDocument document =
       io::make_document(table_of(mapping, {name, ""}, 0), name, overrides_of(overrides));
   return {[&](io::SceneUnits units) { return io::read_document(document, name, units); }, name};

@@ -73,7 +73,7 @@ TEST_F(OwnSystem, AndDragSayWhatIsNotSymplectic) {
   const std::string drag =
       content(std::filesystem::path(HAMJET_SOURCE_DIR) / "data/scenes/earth/drag.toml");
   write("drag.toml", drag);
-  const std::string said = "with drag the system is not Hamiltonian";
+  const std::string said = "a force such as drag acts, is not Hamiltonian";
   const std::string short_run = "jet.duration_s=600";
   std::string out = in_one_line(
       succeed({"run", "drag.toml", "-o", "out", "--set", short_run, "--set", "jet.order=2"}).out);

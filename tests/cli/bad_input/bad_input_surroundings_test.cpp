@@ -60,8 +60,8 @@ TEST_F(Surroundings, MemoryRunsOutAnywhere) {
 TEST_F(Surroundings, LessMemoryThanTheSceneTakes) {
   for (const rlim_t megabytes : {rlim_t{75}, rlim_t{100}, rlim_t{150}}) {
     options_.address_space = megabytes * 1'000'000;
-    expect_error({"run", "small.toml", "--set", "jet.order=10"}, 6,
-                 {"order 10 in 6 variables: 8008 coefficients a component", "MB in all",
+    expect_error({"run", "small.toml", "--set", "jet.order=12"}, 6,
+                 {"order 12 in 6 variables: 18564 coefficients a component", "MB in all",
                   std::to_string(megabytes) + " MB are free"});
   }
 }

@@ -40,7 +40,6 @@ TEST_F(BadRadiation, EachIsOneLine) {
       {"mass_kg = 2000\n", "", {"mass_kg", "missing"}},
       {"mass_kg = 2000", "radiation_m2_kg = 0.02", {"8", "area_m2", "given twice"}},
       {"area_m2 = 40", "radiation_m2_kg = 0.02", {"7", "mass_kg", "given twice"}},
-      {"area_m2 = 40", "area_m2 = 40\nsunlit_area_m2 = 50", {"8", "area_m2", "given twice"}},
       {"mass_kg = 2000\narea_m2 = 40",
        "radiation_m2_kg = 0.02\nreflection_coefficient = 1.2",
        {"8", "reflection_coefficient", "given twice"}},

@@ -82,7 +82,7 @@ TEST_F(EvalDomains, StoredResultsMarkWhatIsNotRight) {
   EXPECT_TRUE(stored["domains"].is_null());
   const CommandResult outcome = hamjet({"eval", "stored", "--deviations", "in.csv"});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.err.find("not right to 1 cm"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("not right to 10 mm"), std::string::npos) << outcome.err;
   store("free", circular_scene);
   EXPECT_EQ(eval_json({"free", "--deviations", "in.csv"})["outside"], 0);
 }
