@@ -97,7 +97,7 @@ void require_memory(const Scene& scene, const DynamicalSystem& system, std::size
   if (needed > memory_limit) {
     throw Error(
         ErrorKind::too_large,
-        fmt::format("order {} in {} variables: {:.4g} coefficients a component, about {:.0f} "
+        fmt::format("order {} in {} variables: {:.0f} coefficients a component, about {:.0f} "
                     "MB in all, but {:.0f} MB are free; a lower order, fewer variables or no "
                     "reference would fit",
                     scene.order, scene.variables.size(),
