@@ -202,7 +202,7 @@ class StageSlopes {
 
   /// Evaluates the stages, and all values there, from the slopes of an earlier solution.
   template <class State>
-  void evaluate_at_slopes(const State& state, IntegrationStatistics& statistics) {
+  [[gnu::noinline]] void evaluate_at_slopes(const State& state, IntegrationStatistics& statistics) {
     place_stages(state);
     evaluator_.evaluate_constant_terms();
     ++statistics.nominal_evaluations;
@@ -214,8 +214,9 @@ class StageSlopes {
   const ComponentUnits& units() const { return units_; }
 
   /// Forms B and, if asked for, K at the present stages; returns false if the matrix is singular.
-  /// Not inlined: copies may fuse products and sums otherwise, and a jet along a known nominal
-  /// would have other last bits than one that is integrated with it.
+  /// Not inlined, as whatever a step and its repetition share: copies may fuse products and sums
+  /// otherwise, and a jet along a known nominal would have other last bits than one that is
+  /// integrated with it.
   [[gnu::noinline]] bool factorise(Response response = Response::formed) {
     return system_.factorise(
         [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, response);
@@ -293,7 +294,7 @@ class StageSlopes {
   static constexpr int largest_iteration_count = 40;
 
   template <class State>
-  void place_stages(const State& state) {
+  [[gnu::noinline]] void place_stages(const State& state) {
     for (std::size_t c = 0; c < system_.components(); ++c) {
       evaluator_.input(c)[0] = system_.base(c, state) +
                                (system_.couple(slopes_[c]) + system_.lost(c, state, slopes_[c]));
