@@ -86,9 +86,9 @@ void MapAnalysis::add_integration_defects(RunResult& run, const FlowJet<Extended
   std::vector<double> errors;
   if (finer_ && !finer_->empty()) {
     errors =
-        relative_error_by_degree(comparable, in_momentum_unit(*finer_, problem_.variables,
-                                                              problem_.degrees_of_freedom.size(),
-                                                              problem_.momentum_exponent));
+        relative_error_by_degree(comparable, compared_components(*finer_, problem_.variables,
+                                                                 problem_.degrees_of_freedom.size(),
+                                                                 problem_.momentum_exponent));
   } else if (run.error_by_degree) {
     errors = *run.error_by_degree;
   } else if (run.error_estimate.by_degree) {

@@ -58,15 +58,6 @@ class ComponentUnits {
     return result;
   }
 
-  /// 1 / sigma of the gradients of several stages; `entry(c, k)` is a pack over the stages.
-  template <class Real, class P, class Entry>
-  Real inverse_sigma(const Entry& entry) const {
-    const GradientBlocks<P> of_stages = blocks<P>(entry);
-    return GradientBlocks<Real>{Real(0), largest_magnitude(of_stages.velocity),
-                                largest_magnitude(of_stages.force)}
-        .inverse_sigma();
-  }
-
   /// The largest sum of magnitudes of a row of a gradient, in these units.
   template <class T, class Entry>
   T row_norm(const Entry& entry, const T& inverse_sigma) const {

@@ -207,8 +207,10 @@ class StageSlopes {
     evaluator_.evaluate_constant_terms();
     ++statistics.nominal_evaluations;
     if (system_.second_order()) return;
-    inverse_sigma_ = units_.template inverse_sigma<Real, P>(
-        [this](std::size_t c, std::size_t k) { return slope_gradient(c, k); });
+    const GradientBlocks<P> blocks = gradient_blocks();
+    inverse_sigma_ = GradientBlocks<Real>{Real(0), largest_magnitude(blocks.velocity),
+                                          largest_magnitude(blocks.force)}
+                         .inverse_sigma();
   }
 
   const ComponentUnits& units() const { return units_; }
@@ -219,7 +221,8 @@ class StageSlopes {
   /// integrated with it.
   [[gnu::noinline]] bool factorise(Response response = Response::formed) {
     return system_.factorise(
-        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, response);
+        [&](std::size_t c, std::size_t from) { return slope_gradient(c, from); }, inverse_sigma_,
+        response);
   }
 
   /// As solve_degree, but by fixed-point iteration without a factorisation. Returns false if the

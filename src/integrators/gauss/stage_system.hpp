@@ -147,11 +147,11 @@ class StageSystem {
   /// The block B_(c, k), where k is an index into the state.
   const P& base_response(std::size_t k, std::size_t c) const { return base_[k * components_ + c]; }
 
-  /// Forms B and, if asked for, K from the slopes' gradients Dg_(c, from), packs over the stages.
+  /// Forms B and, if asked for, K from the slopes' gradients Dg_(c, from), packs over the stages,
+  /// whose 1 / sigma is given (ComponentUnits).
   /// Returns false if the matrix is singular or not finite.
   template <class Gradient>
-  bool factorise(const Gradient& gradient, Response response) {
-    const Real inverse_sigma = units_.template inverse_sigma<Real, P>(gradient);
+  bool factorise(const Gradient& gradient, const Real& inverse_sigma, Response response) {
     for (std::size_t c = 0; c < units_.count(); ++c) {
       inverse_units_[c] = units_.inverse_unit(c, inverse_sigma);
     }
