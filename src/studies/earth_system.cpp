@@ -79,22 +79,23 @@ std::optional<MissingForce> beyond_field(const HarmonicParameter& harmonic,
 }
 
 EarthParameter parameter_of(const HarmonicParameter& harmonic) {
-  const auto [part, n, m] = harmonic;
   EarthParameter parameter;
   parameter.name = harmonic.name();
   parameter.missing = [harmonic](const SystemSettings& s) {
     return beyond_field(harmonic, *s.earth);
   };
-  if (part == HarmonicParameter::Part::J) {
+  if (harmonic.part == HarmonicParameter::Part::J) {
     parameter.help = "zonal coefficient, not normalised, tide-free";
-    parameter.value = [n](const SystemSettings& s) {
+    parameter.value = [n = harmonic.degree](const SystemSettings& s) {
       return not_normalised(n) * s.earth->field->C(n, 0);
     };
   } else {
     parameter.help = "tesseral coefficient, fully normalised";
-    parameter.value = [part, n, m](const SystemSettings& s) {
+    parameter.value = [harmonic](const SystemSettings& s) {
       const SphericalHarmonicCoefficients& field = *s.earth->field;
-      return part == HarmonicParameter::Part::C ? field.C(n, m) : field.S(n, m);
+      const bool is_cosine = harmonic.part == HarmonicParameter::Part::C;
+      return is_cosine ? field.C(harmonic.degree, harmonic.order)
+                       : field.S(harmonic.degree, harmonic.order);
     };
   }
   return parameter;
