@@ -2,6 +2,9 @@
 
 template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+template class Eigen::PartialPivLU<Eigen::Matrix3d>;
+template class Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>>;
+template class Eigen::FullPivLU<Eigen::Matrix3d>;
 template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
                                                         int);

@@ -8,6 +8,9 @@
 
 extern template class Eigen::PartialPivLU<Eigen::MatrixXd>;
 extern template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+extern template class Eigen::PartialPivLU<Eigen::Matrix3d>;
+extern template class Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>>;
+extern template class Eigen::FullPivLU<Eigen::Matrix3d>;
 extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&,
                                                         int);

@@ -54,7 +54,8 @@ Eigen::VectorXd EndConditions::nearest_multipliers(std::span<const double> x,
                                                    const Eigen::VectorXd& covector) {
   if (count_ == 0) return {};
   evaluate(x, std::vector<double>(count_, 0));
-  return jacobian().transpose().completeOrthogonalDecomposition().solve(covector);
+  const Eigen::MatrixXd conditions = jacobian().transpose();
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(conditions).solve(covector);
 }
 
 }  // namespace hamjet

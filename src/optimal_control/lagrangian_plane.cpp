@@ -17,7 +17,7 @@ LagrangianPlane::LagrangianPlane(Eigen::Index n) : frame_(Eigen::MatrixXd::Zero(
 
 void LagrangianPlane::advance(const Eigen::MatrixXd& jacobian) {
   const Eigen::MatrixXd moved = jacobian * frame_;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> decomposition(moved);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> decomposition(moved);
   frame_ = decomposition.householderQ() * Eigen::MatrixXd::Identity(moved.rows(), moved.cols());
 }
 

@@ -237,8 +237,12 @@ ShootingSolution solve_by_shooting(AdvanceMap& map, const OptimalControlProblem&
         const Equilibration& scale = equations.scale();
         Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
         decomposition.setThreshold(settings.newton.rank_threshold);
-        decomposition.compute(scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal());
-        const Eigen::VectorXd change = decomposition.solve(scale.rows.cwiseProduct(r));
+        // Of values, not expressions, each of which would be compiled anew.
+        const Eigen::MatrixXd scaled =
+            scale.rows.asDiagonal() * matrix * scale.columns.asDiagonal();
+        const Eigen::VectorXd residual = scale.rows.cwiseProduct(r);
+        decomposition.compute(scaled);
+        const Eigen::VectorXd change = decomposition.solve(residual);
         return NewtonStep{-scale.columns.cwiseProduct(change), decomposition.rank(), scale};
       });
   // Newton's tolerance is relative to the unknowns, which may have grown without bound; the

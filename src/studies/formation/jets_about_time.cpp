@@ -28,15 +28,25 @@ long double node(Eigen::Index j) {
   return -std::cos(std::numbers::pi_v<long double> * (static_cast<long double>(j) + 0.5L) / nodes);
 }
 
-/// The numbers by which values at the nodes become coefficients of powers: row k is of power k.
-/// This is badly conditioned, for which the weights are made with more digits than they are used.
+/// The numbers by which values at the nodes become coefficients of powers: row k is of power k, and
+/// column j has Lagrange's polynomial that is 1 at node j and 0 at the others. These are large and
+/// cancel, for which they are made with more digits than they are used.
 LongMatrix weights_of_powers() {
-  LongMatrix powers(nodes, nodes);
+  LongMatrix weights = LongMatrix::Zero(nodes, nodes);
   for (Eigen::Index j = 0; j < nodes; ++j) {
-    powers(j, 0) = 1;
-    for (Eigen::Index k = 1; k < nodes; ++k) powers(j, k) = powers(j, k - 1) * node(j);
+    weights(0, j) = 1;
+    Eigen::Index degree = 0;
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      if (i == j) continue;
+      // Times (x - node i) / (node j - node i).
+      const long double distance = node(j) - node(i);
+      for (Eigen::Index k = ++degree; k >= 0; --k) {
+        const long double below = k > 0 ? weights(k - 1, j) : 0;
+        weights(k, j) = (below - node(i) * weights(k, j)) / distance;
+      }
+    }
   }
-  return powers.fullPivLu().inverse();
+  return weights;
 }
 
 }  // namespace

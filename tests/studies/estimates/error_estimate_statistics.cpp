@@ -19,6 +19,7 @@
 
 // How often an estimate is below the true error, and how often far above it, over random inputs:
 //   error_estimate_statistics [scenes|forces|jets|floors|deputies] [count] [first seed]
+// which `cmake --build build --target error_estimate_statistics` makes.
 // `scenes` are of all models and methods, `forces` of Gauss in air and light, `jets` of Gauss about
 // orbits, `deputies` in all coordinates and frames; `floors` compares estimates of jets that
 // rounding limits with what the check error-estimate takes rounding for. Exit code 1 if an estimate

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hamjet/algebra/extended.hpp"
 #include "hamjet/detail/algebra/slice_recurrences.hpp"
 #include "hamjet/detail/dynamics/common_powers.hpp"
 #include "hamjet/detail/dynamics/field_values.hpp"
@@ -452,5 +453,9 @@ class SliceEvaluator {
   std::map<std::pair<const TimeFunction*, std::size_t>, std::vector<T>> time_values_;
   SeriesWork work_;
 };
+
+// Compiled once for all, by slice_evaluator.cpp.
+extern template class SliceEvaluator<double, double>;
+extern template class SliceEvaluator<Extended, Extended>;
 
 }  // namespace hamjet
