@@ -26,13 +26,28 @@ SixNumbers<double> constants(const FlowJet<double>& jet) {
   return result;
 }
 
-const FlowJet<double>& jet_at_end(const std::vector<FlowJet<double>>& about_end) {
-  const bool is_usable = !about_end.empty() && about_end.front().size() == 6 &&
-                         about_end.front().front().space().variables() == 6;
+/// The jets without the components of parameters, which stay as they are.
+std::vector<FlowJet<double>> of_states(std::vector<FlowJet<double>> about_end) {
+  const bool is_usable = !about_end.empty() && about_end.front().size() >= 6 &&
+                         about_end.front().front().space().variables() == about_end.front().size();
   if (!is_usable) {
-    throw Error(ErrorKind::usage, "flow box: a jet of six components in six variables is needed");
+    throw Error(ErrorKind::usage,
+                "flow box: a jet of six components, and of one for each parameter, in as many "
+                "variables is needed");
   }
-  return about_end.front();
+  for (FlowJet<double>& jet : about_end) jet.erase(jet.begin() + 6, jet.end());
+  return about_end;
+}
+
+/// Deviations in all variables of their space, of which those of parameters stand for themselves.
+std::vector<Series<double>> with_parameters(const SixNumbers<Series<double>>& states) {
+  std::vector<Series<double>> result =
+      without_constants(std::vector<Series<double>>(states.begin(), states.end()));
+  const SpacePointer& space = states[0].space_pointer();
+  for (std::size_t v = 6; v < space->variables(); ++v) {
+    result.push_back(Series<double>::variable(space, v, 0.0));
+  }
+  return result;
 }
 
 }  // namespace
@@ -97,12 +112,12 @@ void DrivenFlowBox::turn(SixNumbers<T>& z, const Steady<T>& steady, double sign)
 DrivenFlowBox::DrivenFlowBox(const SixNumbers<double>& start,
                              std::vector<FlowJet<double>> about_end, double duration, double mu,
                              double oblateness)
-    : about_end_(std::move(about_end)),
+    : about_end_(of_states(std::move(about_end))),
       duration_(duration),
       mu_(mu),
       oblateness_(oblateness),
       start_state_(start),
-      end_state_(constants(jet_at_end(about_end_))),
+      end_state_(constants(about_end_.front())),
       start_(driven_flow_box_elements(start, mu), start, mu),
       end_(start_.name(), end_state_, mu),
       start_elements_(start_.coordinates(start)),
@@ -115,9 +130,7 @@ DrivenFlowBox::DrivenFlowBox(const SixNumbers<double>& start,
   for (std::size_t i = 0; i < 6; ++i) rate_ += by_state(0, static_cast<Eigen::Index>(i)) * rate[i];
 
   const SpacePointer space = about_end_.front().front().space_pointer();
-  const auto from = states(space);
-  SeriesCrossing crossing =
-      crossing_of(without_constants(std::vector<Series<double>>(from.begin(), from.end())));
+  SeriesCrossing crossing = crossing_of(states(space));
   const SixNumbers<Series<double>> u = moved(SixNumbers<double>{}, space);
   const Steady<Series<double>> steady_motion = steady(u);
   SixNumbers<Series<double>>& z = crossing.elements;
@@ -148,7 +161,8 @@ SixNumbers<Series<double>> DrivenFlowBox::states(const SpacePointer& space) cons
 }
 
 DrivenFlowBox::SeriesCrossing DrivenFlowBox::crossing_of(
-    const std::vector<Series<double>>& deviations) const {
+    const SixNumbers<Series<double>>& states) const {
+  const std::vector<Series<double>> deviations = with_parameters(states);
   std::vector<std::vector<Series<double>>> powers;
   for (const FlowJet<double>& jet : about_end_) powers.push_back(compose(jet, deviations));
   const SpacePointer& space = deviations[0].space_pointer();
@@ -195,7 +209,10 @@ DrivenFlowBox::Crossing DrivenFlowBox::crossing(const SixNumbers<double>& u,
 }
 
 Matrix<double> DrivenFlowBox::entry_derivative() const {
-  return linear_part(states(SeriesSpace::create(6, 1))).inverse();
+  const std::size_t variables = about_end_.front().front().space().variables();
+  Matrix<double> result = Matrix<double>::Zero(static_cast<Eigen::Index>(variables), 6);
+  result.topRows(6) = linear_part(states(SeriesSpace::create(6, 1))).inverse();
+  return result;
 }
 
 Matrix<double> DrivenFlowBox::exit_derivative() const {
@@ -208,9 +225,7 @@ Matrix<double> DrivenFlowBox::exit_derivative() const {
 
 std::vector<Series<double>> DrivenFlowBox::end_coordinates() const {
   const SpacePointer space = about_end_.front().front().space_pointer();
-  const SixNumbers<Series<double>> initial = moved(SixNumbers<double>{}, space);
-  const SeriesCrossing crossing =
-      crossing_of(std::vector<Series<double>>(initial.begin(), initial.end()));
+  const SeriesCrossing crossing = crossing_of(moved(SixNumbers<double>{}, space));
   std::vector<Series<double>> result = {-crossing.time,
                                         pow(crossing.energy / crossing.energy[0], -1.5)};
   for (const std::size_t i : {1U, 2U, 4U, 5U}) result.push_back(crossing.elements[i]);

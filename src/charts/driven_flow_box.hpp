@@ -36,12 +36,14 @@ ChartName driven_flow_box_elements(const SixNumbers<double>& chief, double mu);
 ///
 /// The polynomials follow from jets in positions and momenta without another integration of the
 /// series' equations: the start's states are composed with the jets at times about the end, and
-/// the time of crossing is solved for as a series. To the order this is exact.
+/// the time of crossing is solved for as a series. To the order this is exact. Where the jets are
+/// expanded in parameters too, these are further variables, which differ from the chief's.
 class DrivenFlowBox {
  public:
   /// `about_end[k]` is the coefficient of t^k, the time after the end, of the jet in positions and
   /// momenta, for k from 0 to the order. Throws Error(numerical) where the chief's orbit is no
-  /// ellipse, and Error(usage) unless the jets have six components in six variables.
+  /// ellipse, and Error(usage) unless the jets have six components, perhaps followed by those of
+  /// parameters, in as many variables.
   DrivenFlowBox(const SixNumbers<double>& start, std::vector<FlowJet<double>> about_end,
                 double duration, double mu, double oblateness);
 
@@ -63,7 +65,7 @@ class DrivenFlowBox {
   /// The chief's state at the end, and its derivative by the time.
   const SixNumbers<double>& chief_end() const noexcept { return end_state_; }
   SixNumbers<double> chief_rate() const;
-  /// The derivatives, at the chief, of the variables by the state, and of the state at the end by
+  /// The derivatives, at the chief, of all variables by the state, and of the state at the end by
   /// the values.
   Matrix<double> entry_derivative() const;
   Matrix<double> exit_derivative() const;
@@ -91,8 +93,9 @@ class DrivenFlowBox {
   bool is_nodal() const { return start_.name() == ChartName::nodal; }
   /// The states at the start as series in the variables.
   SixNumbers<Series<double>> states(const SpacePointer& space) const;
-  /// The crossings of states at the start, given as deviations from the chief's.
-  SeriesCrossing crossing_of(const std::vector<Series<double>>& deviations) const;
+  /// The crossings of states at the start, given as deviations from the chief's, with parameters
+  /// that are variables of their series behind them.
+  SeriesCrossing crossing_of(const SixNumbers<Series<double>>& states) const;
 
   std::vector<FlowJet<double>> about_end_;
   double duration_;
@@ -111,10 +114,19 @@ class DrivenFlowBox {
   std::vector<Series<double>> values_;
 };
 
+/// What the states of deputies end with: the parameters that they all have, and how much these are
+/// above the chief's.
+struct DeputyParameters {
+  std::vector<double> values;
+  std::vector<double> differences;
+};
+
 /// The flow of deputies by a box. Each is carried from its crossing to the end by the full
-/// equations, of the system whose clock stands at `end_time` there.
+/// equations, of the system whose clock stands at `end_time` there. Throws Error(usage) unless the
+/// box is expanded in as many parameters.
 std::unique_ptr<DeputyFlow> driven_flow_box_deputy_flow(const SharedSystem& system,
                                                         const ClockTime& end_time,
-                                                        std::shared_ptr<const DrivenFlowBox> box);
+                                                        std::shared_ptr<const DrivenFlowBox> box,
+                                                        DeputyParameters parameters = {});
 
 }  // namespace hamjet

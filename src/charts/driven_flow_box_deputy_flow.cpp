@@ -14,18 +14,24 @@ namespace {
 class DrivenDeputyFlow : public DeputyFlow {
  public:
   DrivenDeputyFlow(SharedSystem system, const ClockTime& end_time,
-                   std::shared_ptr<const DrivenFlowBox> box)
+                   std::shared_ptr<const DrivenFlowBox> box, DeputyParameters parameters)
       : DeputyFlow(box->values(), box->chief_end()),
         system_(std::move(system)),
         end_time_(end_time.in<double>()),
         start_(box->start_state()),
-        box_(std::move(box)) {
+        box_(std::move(box)),
+        parameters_(std::move(parameters)) {
+    const std::size_t count = parameters_.differences.size();
+    if (variables() != 6 + count || parameters_.values.size() != count) {
+      throw Error(ErrorKind::usage, "flow box: other parameters than those it is expanded in");
+    }
     set_derivatives(box_->entry_derivative(), box_->exit_derivative());
   }
 
  private:
   struct CarriedBack : Passage {
-    explicit CarriedBack(const DrivenDeputyFlow& of) : flow(of), taylor(of.system_) {}
+    explicit CarriedBack(const DrivenDeputyFlow& of)
+        : flow(of), width(of.variables()), taylor(of.system_) {}
 
     void enter(std::span<const SixNumbers<double>> deviations, std::span<double> variables,
                std::span<SixNumbers<double>> carried) override {
@@ -33,13 +39,15 @@ class DrivenDeputyFlow : public DeputyFlow {
         SixNumbers<double> state = flow.start_;
         for (std::size_t i = 0; i < 6; ++i) state[i] += deviations[k][i];
         carried[k] = flow.box_->variables(state);
-        std::copy(carried[k].begin(), carried[k].end(), &variables[6 * k]);
+        auto out = std::copy(carried[k].begin(), carried[k].end(),
+                             variables.begin() + static_cast<std::ptrdiff_t>(width * k));
+        std::copy(flow.parameters_.differences.begin(), flow.parameters_.differences.end(), out);
       }
     }
 
     void leave(std::span<const SixNumbers<double>> carried, std::span<const double> values,
                std::span<SixNumbers<double>> deviations) override {
-      std::array<double, 6 * block> states;
+      std::array<double, widest * block> states;
       std::array<double, block> starts;
       std::array<double, block> times;
       const std::size_t count = carried.size();
@@ -47,16 +55,17 @@ class DrivenDeputyFlow : public DeputyFlow {
         SixNumbers<double> of_one;
         std::copy_n(&values[6 * k], 6, of_one.begin());
         const auto [state, time] = flow.box_->crossing(carried[k], of_one);
-        std::copy(state.begin(), state.end(), &states[6 * k]);
+        auto out = std::copy(state.begin(), state.end(), &states[width * k]);
+        std::copy(flow.parameters_.values.begin(), flow.parameters_.values.end(), out);
         times[k] = std::isfinite(time) ? -time : 0;
         starts[k] = flow.end_time_ - times[k];
-        if (!std::isfinite(time)) states[6 * k] = time;
+        if (!std::isfinite(time)) states[width * k] = time;
       }
-      advance(std::span(states).first(6 * count), std::span(starts).first(count),
+      advance(std::span(states).first(width * count), std::span(starts).first(count),
               std::span(times).first(count));
       for (std::size_t k = 0; k < count; ++k) {
         for (std::size_t i = 0; i < 6; ++i) {
-          deviations[k][i] = states[6 * k + i] - flow.chief_end()[i];
+          deviations[k][i] = states[width * k + i] - flow.chief_end()[i];
         }
       }
     }
@@ -72,8 +81,9 @@ class DrivenDeputyFlow : public DeputyFlow {
         if (error.kind() != ErrorKind::numerical) throw;
       }
       for (std::size_t k = 0; k < times.size(); ++k) {
-        const std::span<double> state = states.subspan(6 * k, 6);
-        std::copy_n(crossings.begin() + static_cast<std::ptrdiff_t>(6 * k), 6, state.begin());
+        const std::span<double> state = states.subspan(width * k, width);
+        std::copy_n(crossings.begin() + static_cast<std::ptrdiff_t>(width * k), width,
+                    state.begin());
         try {
           taylor.advance(state, starts.subspan(k, 1), times.subspan(k, 1));
         } catch (const Error& error) {
@@ -84,6 +94,7 @@ class DrivenDeputyFlow : public DeputyFlow {
     }
 
     const DrivenDeputyFlow& flow;
+    std::size_t width;  ///< of a state with its parameters
     TaylorFlow taylor;
   };
   std::unique_ptr<Passage> passage() const override { return std::make_unique<CarriedBack>(*this); }
@@ -92,14 +103,17 @@ class DrivenDeputyFlow : public DeputyFlow {
   double end_time_;  ///< the clock's
   SixNumbers<double> start_;
   std::shared_ptr<const DrivenFlowBox> box_;
+  DeputyParameters parameters_;
 };
 
 }  // namespace
 
 std::unique_ptr<DeputyFlow> driven_flow_box_deputy_flow(const SharedSystem& system,
                                                         const ClockTime& end_time,
-                                                        std::shared_ptr<const DrivenFlowBox> box) {
-  return std::make_unique<DrivenDeputyFlow>(system, end_time, std::move(box));
+                                                        std::shared_ptr<const DrivenFlowBox> box,
+                                                        DeputyParameters parameters) {
+  return std::make_unique<DrivenDeputyFlow>(system, end_time, std::move(box),
+                                            std::move(parameters));
 }
 
 }  // namespace hamjet

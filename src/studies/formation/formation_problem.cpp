@@ -123,7 +123,9 @@ Scene with_deputy_parameters(Scene scene) {
     scene.variables.push_back(scene.nominal.size());
     scene.nominal.push_back(value);
   }
-  scene.coordinates = {};
+  const bool serves_parameters = scene.coordinates == JetCoordinates::flow_box ||
+                                 scene.coordinates == JetCoordinates::automatic;
+  if (!serves_parameters) scene.coordinates = {};
   return scene;
 }
 

@@ -104,10 +104,10 @@ std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
                                                      const ComputedProblem& problem,
                                                      const JetPropagation& at_time,
                                                      const FlowJet<double>& jet) {
-  if (jet.size() != 6 || jet[0].space().variables() != 6) {
+  if (jet.size() < 6 || jet[0].space().variables() != jet.size()) {
     throw Error(ErrorKind::scene,
-                "jet.variables: flow boxes of forces that depend on the time are expanded in the "
-                "six numbers of the state, got other variables, should be left out");
+                "jet.variables: flow boxes of forces that depend on the time are expanded in all "
+                "numbers of the state, got fewer variables, should be left out");
   }
   const SixNumbers<double> start = six_numbers(problem.nominal);
   const double oblateness = scene.system.J[2] * scene.canonical_radius * scene.canonical_radius;
@@ -158,7 +158,11 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
     const FlowJet<double> at_end = jets_->advance_to(time);
     return in_coordinates(coordinates_.end, when, ErrorKind::numerical, [&] {
       last_driven_ = driven_flow_box(scene_, problem_, *jets_, at_end);
-      return driven_flow_box_deputy_flow(problem_.system, problem_.start_time + time, last_driven_);
+      DeputyParameters parameters = {{problem_.nominal.begin() + 6, problem_.nominal.end()},
+                                     parameters_};
+      for (std::size_t i = 0; i < parameters_.size(); ++i) parameters.values[i] += parameters_[i];
+      return driven_flow_box_deputy_flow(problem_.system, problem_.start_time + time, last_driven_,
+                                         std::move(parameters));
     });
   }
   const FlowMap<double>& jet = last_jet_.emplace(jets_->advance_to(time));

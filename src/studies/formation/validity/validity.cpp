@@ -361,12 +361,22 @@ ValidityInCoordinates study_validity_in_all(const Scene& asked, const ProgressCa
 ChosenCoordinates measured_coordinates_of(const Scene& scene) {
   if (scene.coordinates != JetCoordinates::automatic) return scene.coordinates;
   constexpr int few_samples = 10;
+  // How far deputies are that are like the chief.
   Scene measured = scene;
+  measured.deputy.reset();
+  measured = with_deputy_parameters(std::move(measured));
   measured.validity = scene.validity.value_or(ValiditySettings{});
   measured.validity->times = {scene.duration};
   measured.validity->samples = few_samples;
   measured.validity->separation_m.reset();
-  return study_validity(measured).coordinates;
+  ValidityInCoordinates all = study_validity_in_all(measured, nullptr);
+  if (measured.nominal.size() != scene.nominal.size()) {
+    std::erase_if(all.results, [](const ValidityResult& result) {
+      return result.coordinates.start != JetCoordinates::cartesian &&
+             result.coordinates.start != JetCoordinates::flow_box;
+    });
+  }
+  return all.chosen();
 }
 
 const ValidityResult& ValidityInCoordinates::furthest() const {
