@@ -60,12 +60,6 @@ const std::vector<RefusedKey>& refused_keys() {
        true,
        "a thrust that lasts is not made of burns; transfer.largest_thrust_m_s2 limits it",
        beside_impulses},
-      {"thruster",
-       "thrust_N",
-       {fuel_optimal},
-       false,
-       "a mass that falls, where such a thrust is found for an acceleration that stays the same",
-       "acceleration_m_s2"},
       {"thruster", "longest_burn_s", {fuel_optimal}, false, best, out},
       {"thruster", "shortest_burn_s", {fuel_optimal}, false, best, out},
       {"thruster", "attitude", {fuel_optimal}, false, best, out},
@@ -101,7 +95,7 @@ void require_keys_of_thrust(const TableReader& root, TransferThrust thrust) {
     root.table("transfer")
         .fail("thrust",
               "no table [thruster], got thrust = \"fuel-optimal\", must be "
-              "beside one with acceleration_m_s2");
+              "beside one with acceleration_m_s2 or thrust_N");
   }
 }
 

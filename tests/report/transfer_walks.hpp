@@ -94,6 +94,7 @@ inline TransferResult whole_transfer() {
   fuel.energy_optimal_m_s = 9.5;
   fuel.impulses_m_s = 7.25;
   fuel.impulses_bound_m_s = 7.125;
+  fuel.propellant_kg = 0.75;
   fuel.miss_m = 1e-6;
   fuel.velocity_miss_m_s = 1e-9;
   fuel.costates = {6, 5, 4, 3, 2, 1};
@@ -316,6 +317,7 @@ inline std::vector<Walk> transfer_walks() {
             {"impulses_bound_m_s", {"m/s", 7.125, {nullptr}}},
             {"burns", {"", 2, {nullptr}}},
             {"burning_s", {"s", 1.5 * sample_unit_s, {nullptr}}},
+            {"propellant_kg", {"kg", 0.75, {nullptr}}},
             {"miss_m", {"m", 1e-6, {nullptr}}},
             {"velocity_miss_m_s", {"m/s", 1e-9, {nullptr}}},
             {"primer_at_switches", {"", 1e-15, {nullptr}}},

@@ -70,13 +70,18 @@ TableView fuel_optimal_table(const TransferResult& result) {
               for (const ThrustBurn& burn : one.burns) sum += burn.length() * unit;
               return sum;
             }));
+  table.add("propellant_kg", "kg",
+            "the propellant that the burns take; nothing where no mass is given",
+            &FuelOptimalTransfer::propellant_kg);
   table.add("miss_m", "m", "the flown miss of the position",
             where_fuel_is_found(&FuelOptimalTransfer::miss_m));
   table.add("velocity_miss_m_s", "m/s", "the flown miss of the velocity",
             where_fuel_is_found(&FuelOptimalTransfer::velocity_miss_m_s));
-  table.add("primer_at_switches", "",
-            "the largest difference of the primer vector's length from 1 at switches",
-            where_fuel_is_found(&FuelOptimalTransfer::primer_at_switches));
+  table.add(
+      "primer_at_switches", "",
+      "the largest difference of the primer vector's length from 1 at switches; where the mass "
+      "falls, it is told in parts of the costate of the change spent so far",
+      where_fuel_is_found(&FuelOptimalTransfer::primer_at_switches));
   table.add("primer_in_coasts", "", "its largest length in coasts, which is not above 1",
             where_fuel_is_found(&FuelOptimalTransfer::primer_in_coasts));
   table.add("primer_in_burns", "", "its least length in burns, which is not below 1",
@@ -85,12 +90,8 @@ TableView fuel_optimal_table(const TransferResult& result) {
             "how far the Hamiltonian changes along the flight, in parts of its largest term; "
             "nothing where forces depend on the time",
             [](Fuelled one) { return one.is_found() ? one.hamiltonian_change : std::nullopt; });
-  table.add_array(
-      "costates", {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
-      "",
-      "the costates at the start, in the scene's canonical units along inertial axes, whose primer "
-      "vector is that of the maximum principle",
-      where_fuel_is_found(&FuelOptimalTransfer::costates));
+  add_costates(table, result.scene, ", whose primer vector is that of the maximum principle",
+               where_fuel_is_found(&FuelOptimalTransfer::costates));
   table.add("continuation_steps", "", "steps by which it was followed from least energy",
             &FuelOptimalTransfer::continuation_steps);
   table.add("flights", "", "the number of flights that this took", &FuelOptimalTransfer::flights);
@@ -98,7 +99,7 @@ TableView fuel_optimal_table(const TransferResult& result) {
             "where the thruster is too weak: the least acceleration with which a thrust was found",
             &FuelOptimalTransfer::least_acceleration_m_s2);
   table.add("failure", "", "the reason why there is no answer", &FuelOptimalTransfer::failure);
-  table.add_scalar("acceleration_m_s2", "m/s^2", "the thruster's acceleration",
+  table.add_scalar("acceleration_m_s2", "m/s^2", "the thruster's acceleration, at the start",
                    result.fuel ? std::optional(result.fuel->acceleration_m_s2) : std::nullopt);
   table.add_scalar("shortest_transfer_time_s", "s",
                    "the first of the times in which the thruster can do it",
@@ -126,12 +127,14 @@ TableView fuel_optimal_burns_table(const TransferResult& result) {
             [=](const Row& row) { return row.burn->end * unit; });
   table.add("change_m_s", "m/s", "the integral of the acceleration",
             [](const Row& row) { return row.burn->change_m_s; });
-  table.add_array("start_direction", axis_parts(result.scene, "start_direction_", ""), "",
-                  "the unit vector of the thrust at its start, along the frame's axes then",
-                  [](const Row& row) { return row.burn->start_direction; });
-  table.add_array("end_direction", axis_parts(result.scene, "end_direction_", ""), "",
-                  "the unit vector of the thrust at its end, along the frame's axes then",
-                  [](const Row& row) { return row.burn->end_direction; });
+  add_along_axes(table, result.scene, "start_direction",
+                 axis_parts(result.scene, "start_direction_", ""), "",
+                 "the unit vector of the thrust at its start, along the frame's axes then",
+                 [](const Row& row) { return row.burn->start_direction; });
+  add_along_axes(table, result.scene, "end_direction",
+                 axis_parts(result.scene, "end_direction_", ""), "",
+                 "the unit vector of the thrust at its end, along the frame's axes then",
+                 [](const Row& row) { return row.burn->end_direction; });
   std::vector<Row> rows;
   if (result.fuel) {
     for (const FuelOptimalTransfer& one : result.fuel->transfers) {
@@ -151,8 +154,9 @@ TableView primer_profile_table(const TransferResult& result) {
       "Thrust and primer vector along the way of the fuel-optimal transfer that takes the least.");
   table.add("time_s", "s", "since the start",
             [=](const PrimerSample& sample) { return sample.time * unit; });
-  table.add_array("thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
-                  "the acceleration, along the frame's axes then", &PrimerSample::thrust_m_s2);
+  add_along_axes(table, result.scene, "thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"),
+                 "m/s^2", "the acceleration, along the frame's axes then",
+                 &PrimerSample::thrust_m_s2);
   table.add("primer", "", "the length of the primer vector", &PrimerSample::primer);
   const auto rows = result.fuel ? result.fuel->profile : std::vector<PrimerSample>();
   return std::move(table).view(rows, {rows.size()});
@@ -225,6 +229,7 @@ std::string fuel_verdict(const TransferResult& result) {
   if (least->impulses_m_s) {
     text += fmt::format(", and impulses {}", velocity_text(*least->impulses_m_s));
   }
+  if (least->propellant_kg) text += fmt::format("; {:.4g} kg of propellant", *least->propellant_kg);
   text += fmt::format("; it misses by {} and {:.2g} m/s.",
                       miss_text(least->miss_m, result.flight_floor_m), least->velocity_miss_m_s);
   for (const FuelOptimalTransfer& one : result.fuel->transfers) {

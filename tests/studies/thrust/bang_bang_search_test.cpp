@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -51,6 +52,45 @@ TEST(BangBangSearch, RestToRestIsThatOfTheClosedForm) {
     EXPECT_LT(thrust.miss.norm(), 1e-13) << most;
     // The primer vector is linear in time, and 1 at both switches.
     EXPECT_NEAR(thrust.costates[3], -1 / (1 - first), 1e-11 / (1 - first)) << most;
+  }
+}
+
+// The same while the mass falls, with the acceleration a = a0 exp(v / c) after the change v: a burn
+// to the speed V takes the time c / a (1 - exp(-V / c)), c / a being the time in which the mass
+// would be used up, and goes c ((c / a - t) ln(1 - t a / c) + t); V is such that the way is 1.
+TEST(BangBangSearch, RestToRestByFallingMassIsThatOfTheClosedForm) {
+  const SwitchedFlight flight(system_of(0), ClockTime::epoch(), 2);
+  for (const double exhaust : {100.0, 2.0, 1.0}) {
+    BangBangTask task = rest_to_rest(1.25);
+    task.inverse_exhaust = 1 / exhaust;
+    const auto burn_time = [&](double acceleration, double speed) {
+      return -exhaust / acceleration * std::expm1(-speed / exhaust);
+    };
+    const auto way_from_rest = [&](double acceleration, double time) {
+      const double whole = exhaust / acceleration;
+      return exhaust * ((whole - time) * std::log1p(-time / whole) + time);
+    };
+    const auto times_and_way = [&](double speed) {
+      const double later = task.most * std::exp(speed / exhaust);
+      const double first = burn_time(task.most, speed), last = burn_time(later, speed);
+      return std::array{first, last,
+                        way_from_rest(task.most, first) + speed * (2 - first - last) +
+                            speed * last - way_from_rest(later, last)};
+    };
+    double low = 0.5, high = 0.9;  // of a mass that stays the same V is 0.69
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2;
+      (times_and_way(middle)[2] < 1 ? low : high) = middle;
+    }
+    const auto [first, last, way] = times_and_way(low);
+    ASSERT_NEAR(way, 1, 1e-14);
+    const BangBangThrust thrust = bang_bang_thrust(flight, task);
+    ASSERT_EQ(thrust.failure, "") << exhaust;
+    ASSERT_EQ(thrust.flown.size(), 4U) << exhaust;
+    EXPECT_NEAR(thrust.flown[0].end, first, 1e-11) << exhaust;
+    EXPECT_NEAR(thrust.flown[1].end, 2 - last, 1e-11) << exhaust;
+    EXPECT_NEAR(thrust.flown[1].acceleration, task.most * std::exp(low / exhaust), 1e-11);
+    EXPECT_NEAR(thrust.flown[3].acceleration, task.most * std::exp(2 * low / exhaust), 1e-11);
   }
 }
 

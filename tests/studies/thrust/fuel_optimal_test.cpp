@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "energy_optimal_flights.hpp"
@@ -103,6 +106,81 @@ TEST(FuelOptimal, BurnsLeadToTheEndInAnotherProgram) {
   EXPECT_EQ(exit_code(result), 0);
 }
 
+/// State, costates, the change that was spent and its costate.
+using WithMass = std::array<long double, 14>;
+
+// A thruster whose mass falls by a third: the test's own program carries the mass and the costate
+// of the change, at which the primer vector must pass at each switch, and comes to the end. Between
+// the same ends it takes less than with the first acceleration all the way, which it could be
+// throttled to.
+TEST(FuelOptimal, FallingMassIsFlownInAnotherProgram) {
+  Scene scene = fuel_scene({5.0}, 0.08);
+  const double constant_m_s = study_transfer(scene).fuel->transfers.at(0).change_m_s;
+  scene.thruster->mass_kg = 500;
+  scene.thruster->exhaust_m_s = 2.5 * constant_m_s;
+  const TransferResult result = study_transfer(scene);
+  const FuelOptimalTransfer& transfer = result.fuel->transfers.at(0);
+  ASSERT_TRUE(transfer.is_found()) << transfer.failure;
+  EXPECT_LT(transfer.change_m_s, constant_m_s);
+  ASSERT_TRUE(transfer.propellant_kg);
+  EXPECT_NEAR(*transfer.propellant_kg,
+              500 * (1 - std::exp(-transfer.change_m_s / constant_m_s / 2.5)), 1e-9);
+  const MetricUnits units = units_of(scene);
+  const long double first = 0.08L * units.time_s / units.velocity_m_s();
+  const long double exhaust = *scene.thruster->exhaust_m_s / units.velocity_m_s();
+  WithMass z{};
+  const Numbers start = start_of(scene, scene.transfer->start, transfer.costates);
+  std::copy_n(start.begin(), 12, z.begin());
+  z[13] = 1;
+  long double now = 0;
+  const auto fly_to = [&](double time, bool burns) {
+    fly(
+        [&](const WithMass& x, WithMass& d, long double) {
+          Numbers of_states{};
+          std::copy_n(x.begin(), 12, of_states.begin());
+          const Numbers rate = derivative(of_states);
+          std::copy_n(rate.begin(), 12, d.begin());
+          const long double length = primer(of_states);
+          const long double size = burns ? first * std::exp(x[12] / exhaust) : 0;
+          for (std::size_t i = 0; i < 3; ++i) d[3 + i] += x[9 + i] - size * x[9 + i] / length;
+          d[12] = size;
+          d[13] = size / exhaust * (length - x[13]);
+        },
+        z, time - now);
+    now = time;
+  };
+  const auto expect_switch = [&] {
+    const long double length = std::hypot(z[9], z[10], z[11]);
+    EXPECT_NEAR(static_cast<double>(length / z[13]), 1, 1e-9);
+  };
+  for (const ThrustBurn& burn : transfer.burns) {
+    if (burn.start > 0) {
+      fly_to(burn.start, false);
+      expect_switch();
+    }
+    fly_to(burn.end, true);
+    if (burn.end < transfer.time) expect_switch();
+  }
+  if (now < transfer.time) fly_to(transfer.time, false);
+  EXPECT_GT(z[13], 1.01);
+  const Numbers wanted = wanted_end(scene, transfer.time);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(std::abs(static_cast<double>(z[i] - wanted[i])) * units.length_m, 1e-5);
+    EXPECT_LT(std::abs(static_cast<double>(z[3 + i] - wanted[3 + i])) * units.velocity_m_s(), 1e-8);
+  }
+  EXPECT_NEAR(transfer.change_m_s, static_cast<double>(z[12]) * units.velocity_m_s(),
+              1e-10 * transfer.change_m_s);
+  EXPECT_LT(transfer.primer_at_switches, 1e-12);
+  EXPECT_LE(transfer.primer_in_coasts, 1 + 1e-12);
+  EXPECT_GE(transfer.primer_in_burns, 1 - 1e-12);
+  ASSERT_TRUE(transfer.hamiltonian_change);
+  EXPECT_LT(*transfer.hamiltonian_change, 1e-11);
+  scene.thruster->propellant_kg = 0.9 * *transfer.propellant_kg;
+  const TransferResult empty = study_transfer(scene);
+  EXPECT_NE(empty.fuel->failure.find("above propellant_kg"), std::string::npos)
+      << empty.fuel->failure;
+}
+
 // A thruster below the largest acceleration of least energy, which burns most of the time.
 TEST(FuelOptimal, AWeakThrusterArrivesToo) {
   const Scene strong = fuel_scene({5.0}, 1);
@@ -112,8 +190,8 @@ TEST(FuelOptimal, AWeakThrusterArrivesToo) {
   expect_arrival(scene, result.fuel->transfers[0]);
 }
 
-// The thrust tends to the impulses. Those at the start and at the end are where the primer vector has
-// a slope, so that a burn, on one side of them alone, loses in proportion to its length.
+// The thrust tends to the impulses. Those at the start and at the end are where the primer vector
+// has a slope, so that a burn, on one side of them alone, loses in proportion to its length.
 TEST(FuelOptimal, StrongThrustTendsToImpulses) {
   std::vector<double> losses;
   for (const double acceleration : {0.5, 1.0, 2.0}) {

@@ -12,7 +12,7 @@ namespace hamjet {
 struct ThrustBurn {
   double start = 0;  ///< in canonical units, since the start
   double end = 0;
-  double change_m_s = 0;  ///< the largest acceleration times the length
+  double change_m_s = 0;  ///< integral of the acceleration
   /// Unit vectors of the thrust at both ends of the burn, along the axes of the scene's frame then.
   Eigen::Vector3d start_direction = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_direction = Eigen::Vector3d::Zero();
@@ -22,7 +22,9 @@ struct ThrustBurn {
 
 /// The thrust that leads a deputy from its start to its end, in position and velocity, in one time
 /// with the least integral of |u|, its acceleration |u| never above a limit. It is full where the
-/// primer vector -lambda_v is longer than 1, along which it then is, and zero where it is shorter.
+/// primer vector -lambda_v is longer than a threshold, along which it then is, and zero where it is
+/// shorter. The threshold is 1; where the mass falls, and the limit grows, it is the costate of the
+/// change spent so far, which is 1 at the start. Primer vectors are told in parts of it.
 struct FuelOptimalTransfer {
   double time = 0;                ///< in canonical units
   std::vector<ThrustBurn> burns;  ///< in the order of time
@@ -34,12 +36,14 @@ struct FuelOptimalTransfer {
   std::optional<double> impulses_bound_m_s;
   double miss_m = 0;
   double velocity_miss_m_s = 0;
+  /// What the burns take; absent where the mass stays the same.
+  std::optional<double> propellant_kg;
   /// Costates at the start, canonical, those of q and then those of p, in the unit in which the
-  /// primer vector has the length 1 at switches.
+  /// threshold is 1 there.
   std::vector<double> costates;
   // The conditions of the maximum principle, along the flight.
-  double primer_at_switches = 0;  ///< the largest | |lambda_v| - 1 | at switches
-  double primer_in_coasts = 0;    ///< the largest |lambda_v| while the thrust is zero
+  double primer_at_switches = 0;  ///< the largest distance of its length from 1 at switches
+  double primer_in_coasts = 0;    ///< the largest length while the thrust is zero
   double primer_in_burns = 0;     ///< the least while it is full; 0 without a burn
   /// Where forces do not depend on the time: the change of the Hamiltonian along the flight, in
   /// parts of its largest term.
@@ -59,12 +63,12 @@ struct PrimerSample {
   double time = 0;  ///< in canonical units
   /// Acceleration along the axes of the scene's frame at that time.
   Eigen::Vector3d thrust_m_s2 = Eigen::Vector3d::Zero();
-  double primer = 0;  ///< the length of the primer vector
+  double primer = 0;  ///< the length of the primer vector, in parts of the threshold
 };
 
 /// The results of `thrust = "fuel-optimal"`.
 struct FuelOptimalTransfers {
-  double acceleration_m_s2 = 0;                ///< the thruster's
+  double acceleration_m_s2 = 0;                ///< the thruster's, at the start
   std::vector<FuelOptimalTransfer> transfers;  ///< one for each time, away from 0
   std::optional<std::size_t> least;            ///< the least change among those found
   std::vector<PrimerSample> profile;           ///< along the flight of the least, at equal times

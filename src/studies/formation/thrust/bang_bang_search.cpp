@@ -52,7 +52,13 @@ class BangBangSearch {
                       "and no further",
                       point->law.most / task_.most));
     }
-    if (std::optional<Point> sharp = without_smoothing(*point)) return found(std::move(*sharp));
+    if (std::optional<Point> sharp = without_smoothing(*point)) {
+      if (!follow_falling_mass(*sharp)) {
+        return failed(fmt::format("thrust was followed to {:.3g} parts of the fall of the mass",
+                                  sharp->law.inverse_exhaust / task_.inverse_exhaust));
+      }
+      return found(polished(std::move(*sharp)));
+    }
     return failed(
         fmt::format("the smoothed thrust was followed to {:.3g} parts of energy in its "
                     "cost, and none without was found",
@@ -83,10 +89,38 @@ class BangBangSearch {
   /// The thrust with e = 0 and the same limit; the point is then the last smoothed one.
   std::optional<Point> without_smoothing(Point& point) {
     while (point.law.smoothing > least_smoothing) {
-      if (std::optional<Point> sharp = sharpened(point)) return polished(std::move(*sharp));
+      if (std::optional<Point> sharp = sharpened(point)) return sharp;
       if (!follow(point, {point.law.most, point.law.smoothing / 10}, 1e-2)) break;
     }
     return std::nullopt;
+  }
+
+  /// From a mass that stays the same to the task's; the point is then the last one that was found.
+  bool follow_falling_mass(Point& point) {
+    constexpr double least_step = 1e-3;
+    const double whole = task_.inverse_exhaust;
+    double step = 1;
+    std::vector<double> rates(point.costates.size(), 0.0);  // from the last two points
+    while (point.law.inverse_exhaust < whole) {
+      SwitchedThrust law = point.law;
+      law.inverse_exhaust = std::min(whole, law.inverse_exhaust + step * whole);
+      const double length = law.inverse_exhaust - point.law.inverse_exhaust;
+      std::vector<double> guess = point.costates;
+      for (std::size_t i = 0; i < guess.size(); ++i) guess[i] += length * rates[i];
+      std::optional<Point> next = solved(guess, law);
+      if (!next) {
+        step /= 3;
+        if (step < least_step) return false;
+        continue;
+      }
+      for (std::size_t i = 0; i < rates.size(); ++i) {
+        rates[i] = (next->costates[i] - point.costates[i]) / length;
+      }
+      point = std::move(*next);
+      ++result_.steps;
+      step *= 2;
+    }
+    return true;
   }
 
   /// On to rounding.

@@ -14,13 +14,14 @@ struct BangBangTask {
   std::vector<double> end;              ///< likewise
   std::vector<double> energy_costates;  ///< at the start, of the least integral of |u|^2 / 2
   double energy_largest = 0;            ///< the largest |u| of that thrust
-  double most = 0;                      ///< the largest |u| that is allowed
+  double most = 0;                      ///< the largest |u| that is allowed, at the start
+  double inverse_exhaust = 0;           ///< see SwitchedThrust; 0 if the mass stays the same
   double tolerance = 0;                 ///< of the end, and at most
 };
 
 /// The thrust of least fuel for it, or how far it was followed.
 struct BangBangThrust {
-  std::vector<double> costates;  ///< at the start; the primer vector has the length 1 at switches
+  std::vector<double> costates;  ///< at the start, where thrust is switched at the length 1
   std::vector<ThrustSpan> flown;
   SwitchedFlight::State miss = SwitchedFlight::State::Zero();
   int steps = 0;    ///< from the energy-optimal thrust on
@@ -34,7 +35,8 @@ struct BangBangThrust {
 /// it does not meet, to a small e, then to the task's limit, and then to e = 0, each time by
 /// Newton's method from where the tangent leads. Of e = 0 an answer is taken only if it does not
 /// take more fuel than the smoothed thrust that it comes from, which is allowed too. A deputy that
-/// arrives by coasting needs none. A search that takes too many flights is given up.
+/// arrives by coasting needs none. That of a falling mass is followed last, from a mass that stays
+/// the same. A search that takes too many flights is given up.
 BangBangThrust bang_bang_thrust(const SwitchedFlight& flight, const BangBangTask& task);
 
 }  // namespace hamjet

@@ -81,12 +81,13 @@ class FuelOptimalStudy {
     for (int k = 0; k <= intervals; ++k) {
       times.push_back(k == intervals ? transfer.time : transfer.time * k / intervals);
     }
-    for (const std::vector<double>& z : flight.at(flown, law(), times)) {
+    for (const ThrustSpan& place : flight.at(flown, law(), times)) {
       const double time = times[samples.size()];
-      const double primer = primer_length(z);
+      const double primer = primer_length(place.state) / place.threshold;
       PrimerSample sample{time, Eigen::Vector3d::Zero(), primer};
       if (primer > 1) {
-        sample.thrust_m_s2 = scene_.thruster->acceleration_m_s2 * direction(ends.chief_at(time), z);
+        sample.thrust_m_s2 = place.acceleration * units_.velocity_m_s() / units_.time_s *
+                             direction(ends.chief_at(time), place.state);
       }
       samples.push_back(sample);
     }
@@ -94,7 +95,11 @@ class FuelOptimalStudy {
   }
 
  private:
-  SwitchedThrust law() const { return {acceleration_, 0}; }
+  SwitchedThrust law() const { return {acceleration_, 0, inverse_exhaust()}; }
+  double inverse_exhaust() const {
+    const auto& exhaust_m_s = scene_.thruster->exhaust_m_s;
+    return exhaust_m_s ? units_.velocity_m_s() / *exhaust_m_s : 0;
+  }
 
   BangBangTask task(const ThrustedFlight& ends, const EnergyOptimalTransfer& energy) const {
     BangBangTask task;
@@ -106,11 +111,14 @@ class FuelOptimalStudy {
     task.energy_costates = energy.refined->costates;
     task.energy_largest = energy.largest_m_s2 * units_.time_s / units_.velocity_m_s();
     task.most = acceleration_;
+    task.inverse_exhaust = inverse_exhaust();
     task.tolerance = scene_.transfer->refined_miss_m / units_.length_m;
     return task;
   }
 
   void add_impulses(FuelOptimalTransfer& transfer) const {
+    // Impulses at any times are planned along orbits alone.
+    if (!is_orbit(scene_.system.model)) return;
     try {
       const PlannedTransfer planned(unlimited_, orbit_, flow_, transfer.time);
       const FlownImpulses flown = planned.corrected(planned.by_linear_theory());
@@ -147,20 +155,33 @@ class FuelOptimalStudy {
     for (std::size_t k = 0; k + 1 < thrust.flown.size(); ++k) {
       const ThrustSpan& span = thrust.flown[k];
       if (k > 0) {
-        transfer.primer_at_switches =
-            std::max(transfer.primer_at_switches, std::abs(primer_length(span.state) - 1));
+        transfer.primer_at_switches = std::max(
+            transfer.primer_at_switches, std::abs(primer_length(span.state) / span.threshold - 1));
       }
       if (span.phase != ThrustPhase::full) continue;
       ThrustBurn burn;
       burn.start = span.start;
       burn.end = span.end;
-      burn.change_m_s = scene_.thruster->acceleration_m_s2 * span.length() * units_.time_s;
+      burn.change_m_s = law().mass_falls()
+                            ? *scene_.thruster->exhaust_m_s *
+                                  std::log(thrust.flown[k + 1].acceleration / span.acceleration)
+                            : scene_.thruster->acceleration_m_s2 * span.length() * units_.time_s;
       burn.start_direction = direction(ends.chief_at(span.start), span.state);
       burn.end_direction = direction(ends.chief_at(span.end), thrust.flown[k + 1].state);
       transfer.change_m_s += burn.change_m_s;
       transfer.burns.push_back(burn);
     }
     add_conditions(transfer, thrust, flight);
+    if (law().mass_falls()) {
+      transfer.propellant_kg = -scene_.thruster->mass_kg *
+                               std::expm1(-transfer.change_m_s / *scene_.thruster->exhaust_m_s);
+      const auto& most_kg = scene_.thruster->propellant_kg;
+      if (most_kg && *transfer.propellant_kg > *most_kg) {
+        transfer.failure = fmt::format("the burns take {:.6g} kg, above propellant_kg = {:.6g}",
+                                       *transfer.propellant_kg, *most_kg);
+        return;
+      }
+    }
     if (transfer.primer_in_coasts > 1 + primer_rounding ||
         (!transfer.burns.empty() && transfer.primer_in_burns < 1 - primer_rounding)) {
       transfer.failure = fmt::format(
@@ -177,7 +198,7 @@ class FuelOptimalStudy {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double least = infinity, lowest = infinity, highest = -infinity, scale = 0;
     flight.visit(thrust.flown, law(), each_step, [&](const SwitchedFlight::Instant& instant) {
-      const double primer = primer_length(instant.state);
+      const double primer = primer_length(instant.state) / instant.threshold;
       const bool burns = instant.phase == ThrustPhase::full;
       if (burns) {
         least = std::min(least, primer);
@@ -185,7 +206,7 @@ class FuelOptimalStudy {
         transfer.primer_in_coasts = std::max(transfer.primer_in_coasts, primer);
       }
       // The rates have the thrust in them.
-      double hamiltonian = burns ? acceleration_ : 0;
+      double hamiltonian = burns ? instant.acceleration * instant.threshold : 0;
       for (std::size_t i = 0; i < SwitchedFlight::states; ++i) {
         const double term = instant.state[SwitchedFlight::states + i] * instant.rates[i];
         hamiltonian += term;

@@ -54,10 +54,10 @@ bool is_linear(ThrustPhase phase, double smoothing) {
   return phase == ThrustPhase::off || (phase == ThrustPhase::between && smoothing == 1);
 }
 
-/// The parameters of a phase's system (thrusting_system).
-std::vector<double> parameters_of(ThrustPhase phase, const SwitchedThrust& law) {
-  if (phase == ThrustPhase::off) return {0};
-  if (phase == ThrustPhase::full) return {0, -law.most};
+/// The parameters of a phase's system (thrusting_system), if the mass stays the same.
+std::vector<double> parameters_of(const ThrustSpan& span, const SwitchedThrust& law) {
+  if (span.phase == ThrustPhase::off) return {0};
+  if (span.phase == ThrustPhase::full) return {0, -span.acceleration};
   const double slope = law.most / (2 * law.smoothing);
   if (law.smoothing == 1) return {slope};
   return {slope, slope * (1 - law.smoothing)};
@@ -85,15 +85,27 @@ class PhaseFlight {
               const ClockTime& start_time)
       : flow_(system),
         start_time_(start_time),
+        span_(span),
+        law_(law),
         is_directed_(!is_linear(span.phase, law.smoothing)),
+        falls_(law.mass_falls() && span.phase == ThrustPhase::full),
+        first_costate_(falls_ ? flown_states + 1 : flown_states),
         now_(span.start),
         state_(span.state) {
-    for (const double parameter : parameters_of(span.phase, law)) state_.push_back(parameter);
+    if (falls_) {
+      // The change and its costate stand behind the states and behind the costates.
+      state_.insert(state_.begin() + flown_states, 0.0);
+      state_.insert(state_.end(), {span.threshold, span.acceleration, law.inverse_exhaust});
+    } else {
+      for (const double parameter : parameters_of(span, law)) state_.push_back(parameter);
+    }
   }
 
   double now() const { return now_; }
   double unit() const { return flow_.unit(0); }
-  const std::vector<double>& state() const { return state_; }
+  /// As a phase that begins here.
+  ThrustSpan place() const { return place_of(state_, now_); }
+  bool mass_falls() const { return falls_; }
 
   /// Expands about the present state; the length of the step that may be taken, up to a time.
   double expand(double to) {
@@ -109,26 +121,49 @@ class PhaseFlight {
     }
     return step;
   }
-  /// The squared length of the primer vector as a polynomial of the time in units.
+  /// The squared length of the primer vector as a polynomial of the time in units; where the mass
+  /// falls, less that of the threshold.
   std::vector<double> squared_primer() const {
     const int powers = flow_.powers(0);
     std::vector<double> square(static_cast<std::size_t>(2 * powers) + 1, 0.0);
-    for (std::size_t i = flown_states + 3; i < flown_states + 6; ++i) {
+    const auto add = [&](std::size_t i, double sign) {
       for (int j = 0; j <= powers; ++j) {
         for (int k = 0; k <= powers; ++k) {
           square[static_cast<std::size_t>(j + k)] +=
-              flow_.coefficient(0, i, j) * flow_.coefficient(0, i, k);
+              sign * flow_.coefficient(0, i, j) * flow_.coefficient(0, i, k);
         }
       }
-    }
+    };
+    for (std::size_t i = 3; i < 6; ++i) add(first_costate_ + i, 1);
+    if (falls_) add(first_costate_ + flown_states, -1);
     return square;
   }
-  /// The state at a time after the present one, and its rates.
+  /// The place at a time after the present one, and the rates of its state.
+  ThrustSpan evaluate(double after, std::vector<double>& rates) const {
+    std::vector<double> state, all_rates;
+    evaluate(after, state, &all_rates);
+    rates = outer(all_rates);
+    return place_of(state, now_ + after);
+  }
+  /// A step of a length, but no further than to a time, which rounding shall not miss.
+  void step(double length, double to) {
+    const bool is_last = length >= to - now_;
+    step(is_last ? to - now_ : length);
+    if (is_last) now_ = to;
+  }
+  void step(double length) {
+    std::vector<double> next;
+    evaluate(length, next, nullptr);
+    state_ = std::move(next);
+    now_ += length;
+  }
+
+ private:
   void evaluate(double after, std::vector<double>& state, std::vector<double>* rates) const {
     state.resize(state_.size());
     flow_.evaluate(0, after, state);
     if (rates == nullptr) return;
-    rates->assign(2 * flown_states, 0.0);
+    rates->assign(state_.size(), 0.0);
     const double x = after / unit();
     for (std::size_t i = 0; i < rates->size(); ++i) {
       for (int k = flow_.powers(0); k >= 1; --k) {
@@ -137,46 +172,52 @@ class PhaseFlight {
       (*rates)[i] /= unit();
     }
   }
-  void step(double length) {
-    std::vector<double> next;
-    evaluate(length, next, nullptr);
-    state_ = std::move(next);
-    now_ += length;
+  /// States and costates of what is integrated.
+  std::vector<double> outer(const std::vector<double>& all) const {
+    std::vector<double> result(all.begin(), all.begin() + flown_states);
+    const auto costates = all.begin() + static_cast<std::ptrdiff_t>(first_costate_);
+    result.insert(result.end(), costates, costates + flown_states);
+    return result;
   }
-  /// A step of a length, but no further than to a time, which rounding shall not miss.
-  void step(double length, double to) {
-    const bool is_last = length >= to - now_;
-    step(is_last ? to - now_ : length);
-    if (is_last) now_ = to;
+  ThrustSpan place_of(const std::vector<double>& all, double time) const {
+    ThrustSpan place = span_;
+    place.start = place.end = time;
+    place.state = outer(all);
+    if (falls_) {
+      place.acceleration *= std::exp(all[flown_states] * law_.inverse_exhaust);
+      place.threshold = all[first_costate_ + flown_states];
+    }
+    return place;
   }
 
- private:
   /// Half the time in which the primer vector could vanish, where its direction is singular. Along
   /// a line the direction stays the same, and its coefficients, which are rounding alone, would not
   /// tell.
   double direction_reach() const {
     if (!is_directed_) return std::numeric_limits<double>::infinity();
     double rate = 0;
-    for (std::size_t i = flown_states + 3; i < flown_states + 6; ++i) {
-      rate = std::hypot(rate, flow_.coefficient(0, i, 1) / unit());
+    for (std::size_t i = 3; i < 6; ++i) {
+      rate = std::hypot(rate, flow_.coefficient(0, first_costate_ + i, 1) / unit());
     }
-    return primer_costate(state_).norm() / (2 * rate);
+    return primer_costate(outer(state_)).norm() / (2 * rate);
   }
 
   TaylorFlow flow_;
   ClockTime start_time_;
+  const ThrustSpan& span_;
+  const SwitchedThrust& law_;
   bool is_directed_;
+  bool falls_;
+  std::size_t first_costate_;
   double now_;
   std::vector<double> state_;
 };
 
-std::vector<double> without_parameters(std::vector<double> state) {
-  state.resize(2 * flown_states);
-  for (const double x : state) {
+void require_numbers(const ThrustSpan& place) {
+  for (const double x : place.state) {
     if (std::isfinite(x)) continue;
     throw Error(ErrorKind::numerical, "thrust: a flight left the range of numbers");
   }
-  return state;
 }
 
 }  // namespace
@@ -187,18 +228,20 @@ SwitchedFlight::SwitchedFlight(const DynamicalSystem& system, const ClockTime& s
                                double duration)
     : coasting_(thrusting_system(system, ThrustForm::linear)),
       directed_(thrusting_system(system, ThrustForm::directed)),
+      falling_(thrusting_system(system, ThrustForm::falling)),
       start_time_(start_time),
       duration_(duration),
       is_autonomous_(coasting_->is_autonomous()) {}
 
 const SharedSystem& SwitchedFlight::system_of(ThrustPhase phase, const SwitchedThrust& law) const {
-  return is_linear(phase, law.smoothing) ? coasting_ : directed_;
+  if (is_linear(phase, law.smoothing)) return coasting_;
+  return law.mass_falls() ? falling_ : directed_;
 }
 
 std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
                                             const SwitchedThrust& law) const {
   std::vector<ThrustSpan> spans;
-  ThrustSpan span{phase_at(primer_length(start), law.smoothing), 0, 0, start, 0};
+  ThrustSpan span{phase_at(primer_length(start), law.smoothing), 0, 0, start, 0, law.most, 1};
   std::optional<bool> entered_from_below;
   while (true) {
     if (spans.size() > most_phases) {
@@ -206,8 +249,10 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
                   fmt::format("thrust: more than {} switches on the way", most_phases));
     }
     PhaseFlight flight(system_of(span.phase, law), span, law, start_time_);
-    const auto lower = lower_threshold(span.phase, law.smoothing);
-    const auto upper = upper_threshold(span.phase, law.smoothing);
+    std::optional<double> lower = lower_threshold(span.phase, law.smoothing);
+    std::optional<double> upper = upper_threshold(span.phase, law.smoothing);
+    if (flight.mass_falls()) lower = 0;
+    if (upper) *upper *= span.threshold;
     std::optional<ThresholdCrossing> crossing;
     bool is_above = false;
     while (!crossing && flight.now() < duration_) {
@@ -235,7 +280,10 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
     span.end = flight.now();
     const ThrustPhase phase = span.phase;
     spans.push_back(span);
-    span = {phase, span.end, span.end, without_parameters(flight.state()), 0};
+    ThrustSpan next = flight.place();
+    require_numbers(next);
+    next.primer_rate = 0;
+    span = std::move(next);
     if (!crossing) break;
     span.phase = phase_beyond(phase, is_above, law.smoothing);
     span.primer_rate = crossing->slope / (2 * flight.unit() * primer_length(span.state));
@@ -251,6 +299,7 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
 SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan>& flown,
                                                     const SwitchedThrust& law,
                                                     const SwitchedThrust& change) const {
+  if (law.mass_falls()) return commanded_by_falling_mass(flown, law);
   constexpr Eigen::Index all = 2 * flown_states;
   Eigen::Matrix<double, all, 7> carried = Eigen::Matrix<double, all, 7>::Zero();
   carried.bottomLeftCorner<6, 6>().setIdentity();
@@ -262,12 +311,12 @@ SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan
       // With e = 0 the thresholds move with a change of e both ways, which is not asked for.
       const Eigen::Matrix<double, 1, 7> later =
           direction.transpose() * carried.bottomRows<3>() / span.primer_rate;
-      const double more = span.phase == ThrustPhase::full ? -law.most : law.most;
+      const double more = span.phase == ThrustPhase::full ? -span.acceleration : span.acceleration;
       carried.middleRows<3>(3) += more * direction * later;
     }
     if (!(span.length() > 1e-13 * duration_)) continue;
     std::vector<double> start = span.state;
-    for (const double parameter : parameters_of(span.phase, law)) start.push_back(parameter);
+    for (const double parameter : parameters_of(span, law)) start.push_back(parameter);
     const Matrix<double> flow =
         linear_part(linear_jet(system_of(span.phase, law), start, start_time_ + span.start,
                                span.length(), tolerance_of_switched_commands(law.smoothing)));
@@ -281,10 +330,61 @@ SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan
   return carried.topRows<6>();
 }
 
+// Beside states and costates the full acceleration and the threshold are carried. Neither the
+// threshold nor, but for its size, the thrust has a rate of its own at a switch.
+SwitchedFlight::Commanded SwitchedFlight::commanded_by_falling_mass(
+    const std::vector<ThrustSpan>& flown, const SwitchedThrust& law) const {
+  constexpr Eigen::Index n = flown_states;
+  constexpr Eigen::Index acceleration = n, costates = n + 1, threshold = 2 * n + 1;
+  const double tolerance = tolerance_of_switched_commands(0);
+  Eigen::Matrix<double, 2 * n + 2, n> carried = Eigen::Matrix<double, 2 * n + 2, n>::Zero();
+  carried.middleRows<n>(costates).setIdentity();
+  for (std::size_t k = 0; k + 1 < flown.size(); ++k) {
+    const ThrustSpan& span = flown[k];
+    const bool burns = span.phase == ThrustPhase::full;
+    if (k > 0) {
+      const Eigen::Vector3d direction = -primer_costate(span.state).normalized();
+      const Eigen::Matrix<double, 1, n> later =
+          (direction.transpose() * carried.middleRows<3>(costates + 3) + carried.row(threshold)) /
+          span.primer_rate;
+      const double more = burns ? -span.acceleration : span.acceleration;
+      carried.middleRows<3>(3) += more * direction * later;
+      carried.row(acceleration) += law.inverse_exhaust * span.acceleration * more * later;
+    }
+    if (!(span.length() > 1e-13 * duration_)) continue;
+    std::vector<double> start = span.state;
+    if (!burns) {
+      start.push_back(0);
+      const Matrix<double> flow = linear_part(
+          linear_jet(coasting_, start, start_time_ + span.start, span.length(), tolerance));
+      Eigen::Matrix<double, 2 * n, n> both;
+      both << carried.topRows<n>(), carried.middleRows<n>(costates);
+      both = flow.topLeftCorner<2 * n, 2 * n>() * both.eval();
+      carried.topRows<n>() = both.topRows<n>();
+      carried.middleRows<n>(costates) = both.bottomRows<n>();
+      continue;
+    }
+    start.insert(start.begin() + n, 0.0);
+    start.insert(start.end(), {span.threshold, span.acceleration, law.inverse_exhaust});
+    Matrix<double> flow = linear_part(
+        linear_jet(falling_, start, start_time_ + span.start, span.length(), tolerance));
+    // The first acceleration takes the place of the change, which begins at zero.
+    flow.col(acceleration) = flow.col(2 * n + 2);
+    Eigen::Matrix<double, 2 * n + 2, n> next = flow.topLeftCorner<2 * n + 2, 2 * n + 2>() * carried;
+    next.row(acceleration) =
+        flown[k + 1].acceleration * (carried.row(acceleration) / span.acceleration +
+                                     law.inverse_exhaust * next.row(acceleration));
+    carried = next;
+  }
+  Commanded result = Commanded::Zero();
+  result.leftCols<n>() = carried.topRows<n>();
+  return result;
+}
+
 void SwitchedFlight::visit(const std::vector<ThrustSpan>& flown, const SwitchedThrust& law,
                            int each_step,
                            const std::function<void(const Instant&)>& visitor) const {
-  std::vector<double> state, rates;
+  std::vector<double> rates;
   for (std::size_t k = 0; k + 1 < flown.size(); ++k) {
     const ThrustSpan& span = flown[k];
     PhaseFlight flight(system_of(span.phase, law), span, law, start_time_);
@@ -292,28 +392,29 @@ void SwitchedFlight::visit(const std::vector<ThrustSpan>& flown, const SwitchedT
       const double step = flight.expand(span.end);
       for (int part = 0; part <= each_step; ++part) {
         const double after = step * part / each_step;
-        flight.evaluate(after, state, &rates);
-        visitor({flight.now() + after, span.phase, state, rates});
+        const ThrustSpan place = flight.evaluate(after, rates);
+        visitor({place.start, span.phase, place.state, rates, place.acceleration, place.threshold});
       }
       flight.step(step, span.end);
     }
   }
 }
 
-std::vector<std::vector<double>> SwitchedFlight::at(const std::vector<ThrustSpan>& flown,
-                                                    const SwitchedThrust& law,
-                                                    const std::vector<double>& times) const {
-  std::vector<std::vector<double>> reached;
+std::vector<ThrustSpan> SwitchedFlight::at(const std::vector<ThrustSpan>& flown,
+                                           const SwitchedThrust& law,
+                                           const std::vector<double>& times) const {
+  std::vector<ThrustSpan> reached;
   for (std::size_t k = 0; k + 1 < flown.size(); ++k) {
     const ThrustSpan& span = flown[k];
     PhaseFlight flight(system_of(span.phase, law), span, law, start_time_);
     while (reached.size() < times.size() && times[reached.size()] < span.end) {
       const double time = times[reached.size()];
       while (flight.now() < time) flight.step(flight.expand(time), time);
-      reached.push_back(without_parameters(flight.state()));
+      reached.push_back(flight.place());
+      require_numbers(reached.back());
     }
   }
-  while (reached.size() < times.size()) reached.push_back(flown.back().state);
+  while (reached.size() < times.size()) reached.push_back(flown.back());
   return reached;
 }
 

@@ -19,8 +19,14 @@ namespace hamjet {
 /// full where p > 1 and zero where p < 1. (Bertrand and Epenoy, Optimal Control Applications and
 /// Methods 23, 2002.)
 struct SwitchedThrust {
-  double most = 0;       ///< a, canonical
+  double most = 0;       ///< a, canonical; at the start where the mass falls
   double smoothing = 0;  ///< e, from 0 to 1
+  /// Where the mass falls, one over the speed of the exhaust, and e = 0: the acceleration grows
+  /// with the change w that was spent as a exp(w / exhaust). The costate of w, which is 1 at the
+  /// start and grows while there is thrust, then stands for the 1 at which the thrust is switched.
+  double inverse_exhaust = 0;
+
+  bool mass_falls() const { return inverse_exhaust > 0; }
 };
 
 enum class ThrustPhase { off, between, full };
@@ -32,6 +38,8 @@ struct ThrustSpan {
   double end = 0;
   std::vector<double> state;  ///< states and costates at the start, twelve numbers
   double primer_rate = 0;     ///< of the primer vector's length, at the switch at the start
+  double acceleration = 0;    ///< the full acceleration at the start
+  double threshold = 1;       ///< the length of the primer vector at which thrust is switched
 
   double length() const { return end - start; }
 };
@@ -56,7 +64,7 @@ class SwitchedFlight {
   std::vector<ThrustSpan> fly(const std::vector<double>& start, const SwitchedThrust& law) const;
   /// How the state of the end moves with the costates of the start (six columns), and when the law
   /// moves by `change` (the seventh): the flow of each phase, and what the switches in between are
-  /// later. Throws as integrate_gauss.
+  /// later. Where the mass falls, the seventh is zero. Throws as integrate_gauss.
   Commanded commanded(const std::vector<ThrustSpan>& flown, const SwitchedThrust& law,
                       const SwitchedThrust& change) const;
 
@@ -66,21 +74,25 @@ class SwitchedFlight {
     ThrustPhase phase;
     const std::vector<double>& state;
     const std::vector<double>& rates;
+    double acceleration;  ///< full
+    double threshold;     ///< see ThrustSpan
   };
   /// Visits the start and the end of every phase and times in between: `each_step` equal parts of
   /// each step of the integration.
   void visit(const std::vector<ThrustSpan>& flown, const SwitchedThrust& law, int each_step,
              const std::function<void(const Instant&)>& visitor) const;
-  /// States and costates at ascending times of a flight.
-  std::vector<std::vector<double>> at(const std::vector<ThrustSpan>& flown,
-                                      const SwitchedThrust& law,
-                                      const std::vector<double>& times) const;
+  /// A flight at ascending times, as phases that begin and end there.
+  std::vector<ThrustSpan> at(const std::vector<ThrustSpan>& flown, const SwitchedThrust& law,
+                             const std::vector<double>& times) const;
 
  private:
   const SharedSystem& system_of(ThrustPhase phase, const SwitchedThrust& law) const;
+  Commanded commanded_by_falling_mass(const std::vector<ThrustSpan>& flown,
+                                      const SwitchedThrust& law) const;
 
   SharedSystem coasting_;  ///< and of a linear thrust
   SharedSystem directed_;
+  SharedSystem falling_;
   ClockTime start_time_;
   double duration_;
   bool is_autonomous_;
