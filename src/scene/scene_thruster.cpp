@@ -38,10 +38,12 @@ const TableDescription& thruster_table() {
 
 ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
   table.check_keys();
-  if (!is_orbit(scene.system.model)) {
+  const bool is_fuel_optimal =
+      scene.transfer && scene.transfer->thrust == TransferThrust::fuel_optimal;
+  if (!is_orbit(scene.system.model) && !is_fuel_optimal) {
     table.fail("",
-               "for spacecraft in an orbit, must be left out: along the coordinates of this "
-               "system velocities change by impulses");
+               "burns in place of impulses are of spacecraft in an orbit, must be left out, or "
+               "beside transfer.thrust = \"fuel-optimal\"");
   }
   ThrusterSettings settings;
   if (table.exactly_one_of({"acceleration_m_s2", "thrust_N"}) == "thrust_N") {

@@ -8,6 +8,7 @@
 
 #include "../formats/relative_frame_text.hpp"
 #include "../integrators/momentum_unit.hpp"
+#include "../studies/formation/charts/coordinate_deviations.hpp"
 #include "../studies/formation/charts/free_coordinates.hpp"
 #include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
@@ -119,15 +120,16 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal,
   return margin;
 }
 
-/// Two impulses and a listed time are what a system without an orbit has.
+/// Two impulses and a thrust that lasts, at listed times, are what a system without an orbit has.
 void refuse_what_needs_orbit(const TableReader& transfer) {
-  for (const std::string_view key : {"impulses", "thrust", "keep_out_m", "revolutions",
-                                     "longest_coast_s", "waypoint", "singular_margin_orbits"}) {
+  for (const std::string_view key : {"impulses", "keep_out_m", "revolutions", "longest_coast_s",
+                                     "waypoint", "singular_margin_orbits"}) {
     const bool is_two = key == "impulses" && transfer.has(key) && transfer.choice(key) == 0;
     if (!transfer.has(key) || is_two) continue;
     transfer.fail(key,
                   fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
-                              "coordinates of this system are transfers of two impulses",
+                              "coordinates of this system are transfers of two impulses and of a "
+                              "thrust that lasts",
                               transfer.found(key)));
   }
 }
@@ -218,7 +220,8 @@ std::vector<Waypoint> read_waypoints(const TableReader& transfer, const Nominal&
   return waypoints;
 }
 
-void read_thrust(const TableReader& transfer, TransferSettings& settings, bool has_ends) {
+void read_thrust(const TableReader& transfer, const Scene& scene, TransferSettings& settings,
+                 bool has_ends) {
   transfer.read_if_any("thrust", settings.thrust);
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
@@ -232,6 +235,15 @@ void read_thrust(const TableReader& transfer, TransferSettings& settings, bool h
     settings.errors = read_thrust_errors(transfer.table("errors"));
   }
   if (settings.thrust == TransferThrust::impulses) return;
+  if (!is_orbit(scene.system.model)) {
+    const std::string missing = missing_for_thrust(scene);
+    if (!missing.empty()) transfer.fail("thrust", missing);
+    if (transfer.has("feedback") && told_coordinates(scene.system) < 3) {
+      transfer.fail("feedback", fmt::format("a law of three coordinates, got {}, must be left out "
+                                            "in a system of fewer",
+                                            transfer.found("feedback")));
+    }
+  }
   if (!has_ends && transfer.has("feedback")) {
     transfer.fail("feedback", "no start and end, must be there with it");
   }
@@ -342,7 +354,7 @@ TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
   transfer.read_if_any("refined_miss_m", settings.refined_miss_m);
   settings.singular_margin = read_singular_margin(transfer, nominal, settings.times.back());
   transfer.read_if_any("impulses", settings.impulses);
-  read_thrust(transfer, settings, has_ends);
+  read_thrust(transfer, scene, settings, has_ends);
   transfer.read_if_any("budget_m_s", settings.budget_m_s);
   transfer.read_if_any("largest_impulse_m_s", settings.largest_impulse_m_s);
   if (transfer.has("impulse_gap_s")) {

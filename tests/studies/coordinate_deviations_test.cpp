@@ -141,7 +141,7 @@ TEST(CoordinateDeviations, ScenesThatHaveNoVelocitiesOrFrames) {
               "end = { position_m = [0, 0, 0] }\n",
           {"transfer.start.a_km: a form of deputies in an orbit"});
   refused(hills_scene(clohessy_wiltshire, transfer + "[thruster]\nacceleration_m_s2 = 1\n"),
-          {"thruster: for spacecraft in an orbit"});
+          {"thruster: burns in place of impulses are of spacecraft in an orbit"});
   refused(R"(schema = 1
 title = "x"
 [system]

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/result_table.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "hamjet/charts/jet_coordinates.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -29,6 +34,56 @@ inline std::vector<std::string> axis_parts(const Scene& scene, std::string_view 
     names.push_back(fmt::format("{}{}{}", before, axis, after));
   }
   return names;
+}
+
+/// Adds a vector along the axes of a transfer's frame, of which a system may have fewer than three;
+/// `value` returns it, or an optional of it.
+template <class Row, class Value>
+void add_along_axes(ResultTable<Row>& table, const Scene& scene, std::string name,
+                    std::vector<std::string> parts, std::string unit, std::string meaning,
+                    Value value) {
+  const std::size_t count = told_coordinates(scene.system);
+  table.add_array(std::move(name), std::move(parts), std::move(unit), std::move(meaning),
+                  [count, value](const Row& row) {
+                    const auto told = [&](const Eigen::Vector3d& vector) {
+                      return along_told_axes(vector, count);
+                    };
+                    using Given = std::remove_cvref_t<std::invoke_result_t<Value, const Row&>>;
+                    if constexpr (std::is_same_v<Given, std::optional<Eigen::Vector3d>>) {
+                      const Given given = std::invoke(value, row);
+                      return given ? std::optional(told(*given)) : std::nullopt;
+                    } else {
+                      return told(std::invoke(value, row));
+                    }
+                  });
+}
+
+/// Adds the costates at the start of a transfer, an optional of six numbers, along the axes of the
+/// positions: inertial ones, or the coordinates of a system without an orbit.
+template <class Row, class Value>
+void add_costates(ResultTable<Row>& table, const Scene& scene, const std::string& meaning,
+                  Value value) {
+  const RelativeFrame frame = scene.transfer->frame;
+  const std::vector<std::string> axes =
+      axis_columns(scene.system, is_along_coordinates(frame) ? frame : RelativeFrame::inertial);
+  std::vector<std::string> parts;
+  for (const char* before : {"costate_", "costate_v"}) {
+    for (const std::string& axis : axes) parts.push_back(before + axis);
+  }
+  table.add_array("costates", std::move(parts), "",
+                  "the costates at the start, in the scene's canonical units along inertial axes "
+                  "or an own system's coordinates" +
+                      meaning,
+                  [count = axes.size(), value](const Row& row) {
+                    const std::optional<std::vector<double>> all = std::invoke(value, row);
+                    if (!all) return all;
+                    std::vector<double> told;
+                    for (const std::size_t first : {std::size_t{0}, all->size() / 2}) {
+                      const auto begin = all->begin() + static_cast<std::ptrdiff_t>(first);
+                      told.insert(told.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+                    }
+                    return std::optional(told);
+                  });
 }
 
 /// Adds the frame that a result is told in, and the coordinates of its polynomials; `is_in_csv`

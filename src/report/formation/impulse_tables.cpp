@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "frame_columns.hpp"
 #include "transfer_view.hpp"
 
@@ -17,11 +16,8 @@ TableView impulses_table(const std::string& name, const std::string& place,
             [&](const Impulse& impulse) { return told_time(scene, impulse.time); });
   table.add("time_s", "s", "since the start",
             [=](const Impulse& impulse) { return impulse.time * unit; });
-  table.add_array("change_m_s", axis_parts(scene, "change_", "_m_s"), "m/s",
-                  "the velocity change, along the frame's axes at that time",
-                  [count = told_coordinates(scene.system)](const Impulse& impulse) {
-                    return along_told_axes(impulse.change_m_s, count);
-                  });
+  add_along_axes(table, scene, "change_m_s", axis_parts(scene, "change_", "_m_s"), "m/s",
+                 "the velocity change, along the frame's axes at that time", &Impulse::change_m_s);
   table.add("magnitude_m_s", "m/s", "the magnitude of the velocity change",
             [](const Impulse& impulse) { return impulse.change_m_s.norm(); });
   return std::move(table).view(impulses, {impulses.size()});

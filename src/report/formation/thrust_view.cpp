@@ -52,8 +52,8 @@ void add_by_thrust_order(ResultTable<EnergyOptimalTransfer>& table, int orders,
 
 void add_thrust(ResultTable<EnergyOptimalTransfer>& table, const Scene& scene,
                 const std::string& end, Eigen::Vector3d EnergyOptimalTransfer::*thrust) {
-  table.add_array(
-      end + "_thrust_m_s2", axis_parts(scene, end + "_thrust_", "_m_s2"), "m/s^2",
+  add_along_axes(
+      table, scene, end + "_thrust_m_s2", axis_parts(scene, end + "_thrust_", "_m_s2"), "m/s^2",
       fmt::format("the acceleration at the {}, along the frame's axes at that time", end),
       where_found(thrust));
 }
@@ -110,10 +110,7 @@ TableView energy_optimal_table(const TransferResult& result) {
   table.add("refined_velocity_miss_m_s", "m/s",
             "the difference of that answer from the wanted velocity",
             of_refined(&EnergyOptimalAnswer::velocity_miss_m_s));
-  table.add_array(
-      "costates", {"costate_x", "costate_y", "costate_z", "costate_vx", "costate_vy", "costate_vz"},
-      "", "the costates at the start, in the scene's canonical units along inertial axes",
-      of_refined(&EnergyOptimalAnswer::costates));
+  add_costates(table, scene, "", of_refined(&EnergyOptimalAnswer::costates));
   table.add("refinement_flights", "", "the number of flights that the correction took",
             &EnergyOptimalTransfer::refinement_flights);
   table.add("failure", "", "the reason why there is no answer", &EnergyOptimalTransfer::failure);
@@ -128,8 +125,9 @@ TableView thrust_profile_table(const TransferResult& result) {
       "The thrust of least energy along the way of the transfer that takes the least change.");
   table.add("time_s", "s", "since the start",
             [=](const ThrustSample& sample) { return sample.time * unit; });
-  table.add_array("thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"), "m/s^2",
-                  "the acceleration, along the frame's axes then", &ThrustSample::thrust_m_s2);
+  add_along_axes(table, result.scene, "thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"),
+                 "m/s^2", "the acceleration, along the frame's axes then",
+                 &ThrustSample::thrust_m_s2);
   table.add("magnitude_m_s2", "m/s^2", "its magnitude",
             [](const ThrustSample& sample) { return sample.thrust_m_s2.norm(); });
   const std::vector<ThrustSample> rows =
@@ -255,8 +253,8 @@ Chart thrust_chart(const TransferResult& result) {
     }
     chart.curves.push_back(std::move(curve));
   };
-  const auto letters = axis_letters(result.scene.transfer->frame);
-  for (std::size_t i = 0; i < 3; ++i) {
+  const auto letters = axis_letters(result.scene.system, result.scene.transfer->frame);
+  for (std::size_t i = 0; i < letters.size(); ++i) {
     add(fmt::format("along {}", letters[i]), i,
         [i](const Eigen::Vector3d& thrust) { return thrust[static_cast<Eigen::Index>(i)]; });
   }

@@ -89,4 +89,15 @@ std::string missing_for_deviations(const Scene& asked) {
   return "";
 }
 
+std::string missing_for_thrust(const Scene& asked) {
+  constexpr double rounding = 1e-13;
+  const Scene scene = with_free_coordinates(asked);
+  const SharedSystem system = make_system(scene);
+  const auto law = velocity_law(*system, scene.nominal);
+  if (law && law->by_momenta.isIdentity(rounding)) return "";
+  return "not available for this Hamiltonian, got rates of the coordinates that change with the "
+         "momenta by other factors than 1, must be of a unit mass as in (px^2 + py^2 + pz^2)/2 + "
+         "y*px - x*py + V(x, y, z), so that an acceleration changes the momenta at its own rate";
+}
+
 }  // namespace hamjet

@@ -21,4 +21,9 @@ std::optional<VelocityLaw> velocity_law(const DynamicalSystem& system,
 /// be ..."; empty if nothing.
 std::string missing_for_deviations(const Scene& scene);
 
+/// What such a scene, which lacks nothing for deviations, lacks for a thrust that lasts: momenta
+/// that an acceleration along the coordinates changes at its own rate (W = 1 in VelocityLaw). The
+/// message is one of the same form; empty if nothing.
+std::string missing_for_thrust(const Scene& scene);
+
 }  // namespace hamjet
