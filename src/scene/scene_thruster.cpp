@@ -32,7 +32,8 @@ const TableDescription& thruster_table() {
         "the direction of a burn stays the same along R, T, N of the spacecraft's own orbit, or "
         "along the inertial axes"}},
       "Also burns of this thruster in place of the impulses of `[transfer]`, about their times; "
-      "with `transfer.thrust = \"fuel-optimal\"` its thrust of least fuel in place of these."};
+      "with `transfer.thrust = \"fuel-optimal\"` its thrust of least fuel in place of these, for which "
+      "limits of burns and an attitude are refused, and which alone there is without an orbit."};
   return table;
 }
 

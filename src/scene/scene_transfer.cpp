@@ -223,6 +223,15 @@ std::vector<Waypoint> read_waypoints(const TableReader& transfer, const Nominal&
 void read_thrust(const TableReader& transfer, const Scene& scene, TransferSettings& settings,
                  bool has_ends) {
   transfer.read_if_any("thrust", settings.thrust);
+  if (!is_orbit(scene.system.model) && settings.thrust != TransferThrust::impulses) {
+    const std::string missing = missing_for_thrust(scene);
+    if (!missing.empty()) transfer.fail("thrust", missing);
+    if (transfer.has("feedback") && told_coordinates(scene.system) < 3) {
+      transfer.fail("feedback", fmt::format("a law of three coordinates, got {}, must be left out "
+                                            "in a system of fewer",
+                                            transfer.found("feedback")));
+    }
+  }
   transfer.read_if_any("thrust_order", settings.thrust_order);
   transfer.read_if_any("largest_thrust_m_s2", settings.largest_thrust_m_s2);
   transfer.read_if_any("feedback", settings.feedback);
@@ -235,15 +244,6 @@ void read_thrust(const TableReader& transfer, const Scene& scene, TransferSettin
     settings.errors = read_thrust_errors(transfer.table("errors"));
   }
   if (settings.thrust == TransferThrust::impulses) return;
-  if (!is_orbit(scene.system.model)) {
-    const std::string missing = missing_for_thrust(scene);
-    if (!missing.empty()) transfer.fail("thrust", missing);
-    if (transfer.has("feedback") && told_coordinates(scene.system) < 3) {
-      transfer.fail("feedback", fmt::format("a law of three coordinates, got {}, must be left out "
-                                            "in a system of fewer",
-                                            transfer.found("feedback")));
-    }
-  }
   if (!has_ends && transfer.has("feedback")) {
     transfer.fail("feedback", "no start and end, must be there with it");
   }
@@ -284,14 +284,14 @@ const TableDescription& transfer_table() {
         {"thrust", form::choice(thrust_names()), absent::value("impulses"),
          "energy-optimal: also the thrust that lasts, with the least integral of its squared "
          "acceleration; fuel-optimal: from it that of `[thruster]` with the least integral of its "
-         "acceleration, full or none"},
+         "acceleration, full or none; of one's own Hamiltonian if its mass is 1"},
         {"thrust_order", form::integer(1, 4), absent::value(preset.thrust_order),
          "order of that thrust's polynomials in states and costates"},
         {"largest_thrust_m_s2", form::positive(), absent::other("any"),
          "transfers whose thrust is at some time larger are marked, and not the least"},
         {"feedback", form::integer(1, most_feedback_instants), absent::other("none"),
          "also the least such thrust as polynomials of the deputy's state at so many equal parts "
-         "of the way, and a flight by them"},
+         "of the way, and a flight by them; of three coordinates"},
         {"errors", form::table(thrust_errors_table()), absent::other("none are drawn"),
          "also flights by that law, and without it, under errors drawn at random"},
         {"budget_m_s", form::positive(), absent::other("none is looked for"),

@@ -58,23 +58,26 @@ void add_along_axes(ResultTable<Row>& table, const Scene& scene, std::string nam
                   });
 }
 
-/// Adds the costates at the start of a transfer, an optional of six numbers, along the axes of the
-/// positions: inertial ones, or the coordinates of a system without an orbit.
+/// Adds the costates at the start of a transfer, an optional of six numbers: those of positions and
+/// velocities along the inertial axes, or of coordinates and momenta of a system without an orbit.
 template <class Row, class Value>
 void add_costates(ResultTable<Row>& table, const Scene& scene, const std::string& meaning,
                   Value value) {
-  const RelativeFrame frame = scene.transfer->frame;
-  const std::vector<std::string> axes =
-      axis_columns(scene.system, is_along_coordinates(frame) ? frame : RelativeFrame::inertial);
-  std::vector<std::string> parts;
-  for (const char* before : {"costate_", "costate_v"}) {
-    for (const std::string& axis : axes) parts.push_back(before + axis);
+  std::vector<std::string> parts = {"costate_x",  "costate_y",  "costate_z",
+                                    "costate_vx", "costate_vy", "costate_vz"};
+  const std::size_t count = told_coordinates(scene.system);
+  if (scene.transfer->frame == RelativeFrame::coordinates && scene.system.own_text) {
+    parts.clear();
+    const SystemText& text = *scene.system.own_text;
+    for (const auto* names : {&text.coordinates, &text.momenta}) {
+      for (std::size_t i = 0; i < count; ++i) parts.push_back("costate_" + (*names)[i]);
+    }
   }
   table.add_array("costates", std::move(parts), "",
                   "the costates at the start, in the scene's canonical units along inertial axes "
                   "or an own system's coordinates" +
                       meaning,
-                  [count = axes.size(), value](const Row& row) {
+                  [count, value](const Row& row) {
                     const std::optional<std::vector<double>> all = std::invoke(value, row);
                     if (!all) return all;
                     std::vector<double> told;

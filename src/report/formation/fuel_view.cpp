@@ -40,6 +40,10 @@ std::optional<double> shortest_fuel_time_s(const TransferResult& result) {
   return std::nullopt;
 }
 
+std::string propellant_text(const std::optional<double>& kilograms) {
+  return kilograms ? fmt::format(" and {:.4g} kg of propellant", *kilograms) : "";
+}
+
 }  // namespace
 
 TableView fuel_optimal_table(const TransferResult& result) {
@@ -72,7 +76,7 @@ TableView fuel_optimal_table(const TransferResult& result) {
             }));
   table.add("propellant_kg", "kg",
             "the propellant that the burns take; nothing where no mass is given",
-            &FuelOptimalTransfer::propellant_kg);
+            [](Fuelled one) { return one.is_found() ? one.propellant_kg : std::nullopt; });
   table.add("miss_m", "m", "the flown miss of the position",
             where_fuel_is_found(&FuelOptimalTransfer::miss_m));
   table.add("velocity_miss_m_s", "m/s", "the flown miss of the velocity",
@@ -157,7 +161,9 @@ TableView primer_profile_table(const TransferResult& result) {
   add_along_axes(table, result.scene, "thrust_m_s2", axis_parts(result.scene, "thrust_", "_m_s2"),
                  "m/s^2", "the acceleration, along the frame's axes then",
                  &PrimerSample::thrust_m_s2);
-  table.add("primer", "", "the length of the primer vector", &PrimerSample::primer);
+  table.add("primer", "",
+            "the length of the primer vector, in parts of that at which the thrust is switched",
+            &PrimerSample::primer);
   const auto rows = result.fuel ? result.fuel->profile : std::vector<PrimerSample>();
   return std::move(table).view(rows, {rows.size()});
 }
@@ -206,7 +212,8 @@ Chart fuel_chart(const TransferResult& result) {
   step(profile.back().time, 0);
   chart.reading =
       "The thrust is full where the primer vector is longer than 1, along which it then is, and "
-      "none where it is shorter.";
+      "none where it is shorter. While the mass falls, its length is told in parts of the costate "
+      "of the change spent so far.";
   return chart;
 }
 
@@ -220,23 +227,23 @@ std::string fuel_verdict(const TransferResult& result) {
   if (least == nullptr) {
     return fmt::format("No thrust of least fuel can be named: {}.", fuel_failure(result));
   }
+  const auto& propellant = least->propellant_kg;
   std::string text = fmt::format(
-      "Thrust of least fuel, full or none at {:.4g} m/s^2, takes {} over {} in {}; that of least "
-      "energy takes {} in the same time",
-      result.fuel->acceleration_m_s2, velocity_text(least->change_m_s),
+      "Thrust of least fuel, full or none at {:.4g} m/s^2{}, takes {}{} over {} in {} and misses "
+      "by "
+      "{} and {:.2g} m/s. That of least energy takes {} in the same time",
+      result.fuel->acceleration_m_s2, propellant ? " at the start" : "",
+      velocity_text(least->change_m_s), propellant_text(propellant),
       time_text(seconds(result, least->time)), counted(least->burns.size(), "burn"),
+      miss_text(least->miss_m, result.flight_floor_m), least->velocity_miss_m_s,
       velocity_text(least->energy_optimal_m_s));
   if (least->impulses_m_s) {
     text += fmt::format(", and impulses {}", velocity_text(*least->impulses_m_s));
   }
-  if (least->propellant_kg) text += fmt::format("; {:.4g} kg of propellant", *least->propellant_kg);
-  text += fmt::format("; it misses by {} and {:.2g} m/s.",
-                      miss_text(least->miss_m, result.flight_floor_m), least->velocity_miss_m_s);
-  for (const FuelOptimalTransfer& one : result.fuel->transfers) {
-    if (one.is_found()) continue;
-    return text +
-           fmt::format(" Not in every time: {}; the shortest of the times that it can do is {}.",
-                       one.failure, time_text(*shortest_fuel_time_s(result)));
+  text += ".";
+  if (const std::string failures = failures_text(*result.fuel); !failures.empty()) {
+    text += fmt::format(" Not in every time: {}; the shortest of the times that it can do is {}.",
+                        failures, time_text(*shortest_fuel_time_s(result)));
   }
   return text;
 }
@@ -248,9 +255,9 @@ std::string fuel_lines(const TransferResult& result) {
     return fmt::format("  least fuel       not found: {}\n", fuel_failure(result));
   }
   std::string text =
-      fmt::format("  least fuel       {} over {} by {}: misses by {} and {:.2g} m/s\n",
-                  velocity_text(least->change_m_s), time_text(seconds(result, least->time)),
-                  counted(least->burns.size(), "burn"),
+      fmt::format("  least fuel       {}{} over {} by {}: misses by {} and {:.2g} m/s\n",
+                  velocity_text(least->change_m_s), propellant_text(least->propellant_kg),
+                  time_text(seconds(result, least->time)), counted(least->burns.size(), "burn"),
                   miss_text(least->miss_m, result.flight_floor_m), least->velocity_miss_m_s);
   for (const ThrustBurn& burn : least->burns) {
     text += fmt::format("{:19}full thrust from {:.6f} s to {:.6f} s\n", "",
@@ -261,14 +268,14 @@ std::string fuel_lines(const TransferResult& result) {
 
 std::string fuel_section_html(const TransferResult& result) {
   if (!result.fuel) return "";
-  const std::vector<std::string> names = {"time (s)",       "change (m/s)", "least energy (m/s)",
-                                          "impulses (m/s)", "burns",        "full thrust (s to s)",
-                                          "miss (m)"};
+  const std::vector<std::string> names = {"time (s)",        "change (m/s)", "least energy (m/s)",
+                                          "impulses (m/s)",  "burns",        "full thrust (s to s)",
+                                          "propellant (kg)", "miss (m)"};
   std::string rows;
   for (const FuelOptimalTransfer& one : result.fuel->transfers) {
     rows += "<tr>" + row_name_cell(fmt::format("{:.6g}", seconds(result, one.time)));
     if (!one.is_found()) {
-      rows += fmt::format("<td colspan=\"6\">{}</td></tr>\n", escape_html(one.failure));
+      rows += fmt::format("<td colspan=\"7\">{}</td></tr>\n", escape_html(one.failure));
       continue;
     }
     std::string spans;
@@ -280,6 +287,7 @@ std::string fuel_section_html(const TransferResult& result) {
             cell(fmt::format("{:.6g}", one.energy_optimal_m_s)) +
             cell(one.impulses_m_s ? fmt::format("{:.6g}", *one.impulses_m_s) : "-") +
             cell(fmt::format("{}", one.burns.size())) + cell(spans) +
+            cell(one.propellant_kg ? fmt::format("{:.4g}", *one.propellant_kg) : "-") +
             cell(fmt::format("{:.3g}", one.miss_m)) + "</tr>\n";
   }
   return "<section>\n<h2>Thrust of least fuel</h2>\n<p>" + escape_html(fuel_verdict(result)) +

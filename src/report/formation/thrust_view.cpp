@@ -141,8 +141,10 @@ TableView feedback_table(const TransferResult& result) {
     std::size_t monomial;
   };
   const double unit = result.scene.units.time_s;
+  // Coordinates of one's own may have names that begin with v.
+  const bool is_own = result.scene.transfer->frame == RelativeFrame::coordinates;
   std::vector<std::string> powers = axis_parts(result.scene, "power_", "");
-  for (std::string& name : axis_parts(result.scene, "power_v", "")) {
+  for (std::string& name : axis_parts(result.scene, is_own ? "power_rate_" : "power_v", "")) {
     powers.push_back(std::move(name));
   }
   ResultTable<Row> table("feedback", "/energy_optimal_thrust/feedback", {"instants", "monomials"},

@@ -40,6 +40,15 @@ DeputyMotion study_deputy_motion(const Scene& asked, const ProgressCallback& pro
   if (!asked.manoeuvres.empty() || !asked.deputy->manoeuvres.empty()) {
     return manoeuvred_motion(asked, progress);
   }
+  const bool is_charted = asked.coordinates != JetCoordinates::cartesian &&
+                          asked.coordinates != JetCoordinates::flow_box &&
+                          asked.coordinates != JetCoordinates::automatic;
+  if (is_charted && !is_like_chief(asked)) {
+    throw Error(ErrorKind::scene,
+                fmt::format("jet.coordinates: of a deputy whose coefficients differ from its "
+                            "chief's, got {}, must be cartesian, flow-box or auto",
+                            name_of(asked.coordinates.start)));
+  }
   const Scene scene = with_deputy_parameters(asked);
   if (scene.duration == 0) {
     throw Error(ErrorKind::scene, "deputy: no motion in no time, got a jet.duration of 0");

@@ -36,7 +36,7 @@ struct FuelOptimalTransfer {
   std::optional<double> impulses_bound_m_s;
   double miss_m = 0;
   double velocity_miss_m_s = 0;
-  /// What the burns take; absent where the mass stays the same.
+  /// What the burns take; absent where the mass stays the same, and where there are none.
   std::optional<double> propellant_kg;
   /// Costates at the start, canonical, those of q and then those of p, in the unit in which the
   /// threshold is 1 there.
@@ -74,5 +74,9 @@ struct FuelOptimalTransfers {
   std::vector<PrimerSample> profile;           ///< along the flight of the least, at equal times
   std::string failure;                         ///< if not empty, the reason why there is none
 };
+
+/// Why some of the times have no such thrust: of too weak thrusters and of too little propellant
+/// the failure that lacks least, otherwise the first; empty if none failed.
+std::string failures_text(const FuelOptimalTransfers& fuel);
 
 }  // namespace hamjet

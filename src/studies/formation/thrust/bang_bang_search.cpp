@@ -22,6 +22,9 @@ constexpr long most_phases_flown = 6000;
 constexpr double most_of_coasting_miss = 1e-6;
 /// A miss that is rounding, in canonical units.
 constexpr double rounded_miss = 1e-14;
+/// A thruster so many times stronger than the thrust of least energy burns for so short that the
+/// flights have no digits left.
+constexpr double most_strength = 1e7;
 /// A burn of the length L stays smoothed until e is below some L^2: this is one of 0.05 s in a low
 /// orbit.
 constexpr double least_smoothing = 1e-10;
@@ -38,6 +41,12 @@ class BangBangSearch {
     const double asked = coasting->miss.norm();
     if (asked <= rounded_miss) return found(std::move(*coasting));
     tolerance_ = std::min(task_.tolerance, std::max(rounded_miss, most_of_coasting_miss * asked));
+    if (task_.most > most_strength * task_.energy_largest) {
+      return failed(
+          fmt::format("the thruster is {:.3g} times as strong as least energy asks for: its burns "
+                      "are impulses",
+                      task_.most / task_.energy_largest));
+    }
     std::optional<Point> point = first();
     if (!point) return failed("the energy-optimal thrust is not found again");
     if (!follow(*point, {point->law.most, moving_smoothing}, 1e-3)) {
@@ -45,6 +54,8 @@ class BangBangSearch {
                                 point->law.smoothing));
     }
     const double ratio = std::log(task_.most / point->law.most);
+    // A thruster that is too weak at first may gain by the fall of the mass what it lacks.
+    if (task_.inverse_exhaust > 0 && ratio < 0) return by_falling_mass(std::move(*point));
     if (!follow(*point, {task_.most, moving_smoothing}, std::min(0.1, 0.005 / std::abs(ratio)))) {
       if (ratio < 0) result_.lowest = point->law.most;
       return failed(
@@ -52,17 +63,7 @@ class BangBangSearch {
                       "and no further",
                       point->law.most / task_.most));
     }
-    if (std::optional<Point> sharp = without_smoothing(*point)) {
-      if (!follow_falling_mass(*sharp)) {
-        return failed(fmt::format("thrust was followed to {:.3g} parts of the fall of the mass",
-                                  sharp->law.inverse_exhaust / task_.inverse_exhaust));
-      }
-      return found(polished(std::move(*sharp)));
-    }
-    return failed(
-        fmt::format("the smoothed thrust was followed to {:.3g} parts of energy in its "
-                    "cost, and none without was found",
-                    point->law.smoothing));
+    return by_falling_mass(std::move(*point));
   }
 
  private:
@@ -73,6 +74,31 @@ class BangBangSearch {
     std::vector<ThrustSpan> flown;
     State miss = State::Zero();
   };
+
+  /// From a smoothed thrust to one without smoothing at the same limit; then to the task's fall of
+  /// the mass, and last to its limit.
+  BangBangThrust by_falling_mass(Point point) {
+    std::optional<Point> sharp = without_smoothing(point);
+    if (!sharp) {
+      return failed(
+          fmt::format("the smoothed thrust was followed to {:.3g} parts of energy in its "
+                      "cost, and none without was found",
+                      point.law.smoothing));
+    }
+    if (!follow_sharp(*sharp, {sharp->law.most, 0, task_.inverse_exhaust})) {
+      return failed(fmt::format("thrust was followed to {:.3g} parts of the fall of the mass",
+                                sharp->law.inverse_exhaust / task_.inverse_exhaust));
+    }
+    const bool is_weaker = task_.most < sharp->law.most;
+    if (!follow_sharp(*sharp, {task_.most, 0, task_.inverse_exhaust})) {
+      if (is_weaker) result_.lowest = sharp->law.most;
+      return failed(
+          fmt::format("thrust was followed to {:.4g} times the thruster's acceleration, "
+                      "and no further",
+                      sharp->law.most / task_.most));
+    }
+    return found(polished(std::move(*sharp)));
+  }
 
   BangBangThrust failed(std::string reason) {
     if (phases_ > most_phases_flown) reason += ", after so many flights that it was given up";
@@ -95,18 +121,22 @@ class BangBangSearch {
     return std::nullopt;
   }
 
-  /// From a mass that stays the same to the task's; the point is then the last one that was found.
-  bool follow_falling_mass(Point& point) {
+  /// Follows limit and exhaust of a thrust without smoothing, along the line through the last two
+  /// points; the point is then the last one that was found.
+  bool follow_sharp(Point& point, const SwitchedThrust& to) {
     constexpr double least_step = 1e-3;
-    const double whole = task_.inverse_exhaust;
-    double step = 1;
-    std::vector<double> rates(point.costates.size(), 0.0);  // from the last two points
-    while (point.law.inverse_exhaust < whole) {
-      SwitchedThrust law = point.law;
-      law.inverse_exhaust = std::min(whole, law.inverse_exhaust + step * whole);
-      const double length = law.inverse_exhaust - point.law.inverse_exhaust;
+    const SwitchedThrust from = point.law;
+    double done = 0, step = 1;
+    std::vector<double> rates(point.costates.size(), 0.0);
+    while (from.most != to.most || from.inverse_exhaust != to.inverse_exhaust) {
+      const double share = std::min(1.0, done + step);
+      const SwitchedThrust law =
+          share == 1 ? to
+                     : SwitchedThrust{from.most * std::pow(to.most / from.most, share), 0,
+                                      from.inverse_exhaust +
+                                          share * (to.inverse_exhaust - from.inverse_exhaust)};
       std::vector<double> guess = point.costates;
-      for (std::size_t i = 0; i < guess.size(); ++i) guess[i] += length * rates[i];
+      for (std::size_t i = 0; i < guess.size(); ++i) guess[i] += (share - done) * rates[i];
       std::optional<Point> next = solved(guess, law);
       if (!next) {
         step /= 3;
@@ -114,10 +144,12 @@ class BangBangSearch {
         continue;
       }
       for (std::size_t i = 0; i < rates.size(); ++i) {
-        rates[i] = (next->costates[i] - point.costates[i]) / length;
+        rates[i] = (next->costates[i] - point.costates[i]) / (share - done);
       }
       point = std::move(*next);
       ++result_.steps;
+      done = share;
+      if (done == 1) return true;
       step *= 2;
     }
     return true;

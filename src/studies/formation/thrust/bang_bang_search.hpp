@@ -35,8 +35,10 @@ struct BangBangThrust {
 /// it does not meet, to a small e, then to the task's limit, and then to e = 0, each time by
 /// Newton's method from where the tangent leads. Of e = 0 an answer is taken only if it does not
 /// take more fuel than the smoothed thrust that it comes from, which is allowed too. A deputy that
-/// arrives by coasting needs none. That of a falling mass is followed last, from a mass that stays
-/// the same. A search that takes too many flights is given up.
+/// arrives by coasting needs none. A falling mass comes after that, and after it the limit again if
+/// it is below what least energy asks for; what fuel such an answer takes is not compared. A search
+/// that takes too many flights is given up, and so is one whose limit is far above that of least
+/// energy.
 BangBangThrust bang_bang_thrust(const SwitchedFlight& flight, const BangBangTask& task);
 
 }  // namespace hamjet

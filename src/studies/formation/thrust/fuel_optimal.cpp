@@ -51,6 +51,15 @@ class FuelOptimalStudy {
       return transfer;
     }
     transfer.energy_optimal_m_s = energy.change_m_s;
+    constexpr double most_masses = 10;  // of the logarithm of the masses before and behind
+    const auto& exhaust_m_s = scene_.thruster->exhaust_m_s;
+    if (exhaust_m_s && energy.change_m_s > most_masses * *exhaust_m_s) {
+      transfer.failure = fmt::format(
+          "the exhaust of {:.4g} m/s, of specific_impulse_s, is too slow: {:.4g} m/s, as least "
+          "energy takes them, leave {:.2g} of the mass",
+          *exhaust_m_s, energy.change_m_s, std::exp(-energy.change_m_s / *exhaust_m_s));
+      return transfer;
+    }
     add_impulses(transfer);
     try {
       const ThrustedFlight ends(scene_, with_costates_, energy.time);
@@ -162,10 +171,11 @@ class FuelOptimalStudy {
       ThrustBurn burn;
       burn.start = span.start;
       burn.end = span.end;
-      burn.change_m_s = law().mass_falls()
-                            ? *scene_.thruster->exhaust_m_s *
-                                  std::log(thrust.flown[k + 1].acceleration / span.acceleration)
-                            : scene_.thruster->acceleration_m_s2 * span.length() * units_.time_s;
+      burn.change_m_s =
+          law().mass_falls()
+              ? -*scene_.thruster->exhaust_m_s *
+                    std::log1p(-span.acceleration * span.length() * law().inverse_exhaust)
+              : scene_.thruster->acceleration_m_s2 * span.length() * units_.time_s;
       burn.start_direction = direction(ends.chief_at(span.start), span.state);
       burn.end_direction = direction(ends.chief_at(span.end), thrust.flown[k + 1].state);
       transfer.change_m_s += burn.change_m_s;
@@ -177,8 +187,9 @@ class FuelOptimalStudy {
                                std::expm1(-transfer.change_m_s / *scene_.thruster->exhaust_m_s);
       const auto& most_kg = scene_.thruster->propellant_kg;
       if (most_kg && *transfer.propellant_kg > *most_kg) {
-        transfer.failure = fmt::format("the burns take {:.6g} kg, above propellant_kg = {:.6g}",
-                                       *transfer.propellant_kg, *most_kg);
+        transfer.failure =
+            fmt::format("the burns of {:.6g} s take {:.6g} kg, above propellant_kg = {:.6g}",
+                        transfer.time * units_.time_s, *transfer.propellant_kg, *most_kg);
         return;
       }
     }
@@ -240,6 +251,26 @@ std::vector<std::size_t> spread_indices(std::size_t count, std::size_t most) {
 
 }  // namespace
 
+std::string failures_text(const FuelOptimalTransfers& fuel) {
+  // Of each kind of limit the failure that lacks least; where there are none, the first.
+  const FuelOptimalTransfer* weak = nullptr;
+  const FuelOptimalTransfer* empty = nullptr;
+  const FuelOptimalTransfer* other = nullptr;
+  for (const FuelOptimalTransfer& one : fuel.transfers) {
+    if (one.is_found()) continue;
+    if (one.least_acceleration_m_s2) {
+      if (!weak || *one.least_acceleration_m_s2 < *weak->least_acceleration_m_s2) weak = &one;
+    } else if (one.propellant_kg) {
+      if (!empty || *one.propellant_kg < *empty->propellant_kg) empty = &one;
+    } else if (!other) {
+      other = &one;
+    }
+  }
+  if (!weak && !empty) return other ? other->failure : "";
+  if (weak && empty) return weak->failure + "; " + empty->failure;
+  return (weak ? weak : empty)->failure;
+}
+
 FuelOptimalTransfers fuel_optimal_transfers(const Scene& scene, const ComputedProblem& orbit,
                                             const CompanionFlow& flow,
                                             const EnergyOptimalTransfers& energy,
@@ -264,13 +295,7 @@ FuelOptimalTransfers fuel_optimal_transfers(const Scene& scene, const ComputedPr
     result.profile = study.profile(result.transfers[*result.least]);
     return result;
   }
-  const auto weakest = std::min_element(
-      result.transfers.begin(), result.transfers.end(), [](const auto& a, const auto& b) {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        return a.least_acceleration_m_s2.value_or(infinity) <
-               b.least_acceleration_m_s2.value_or(infinity);
-      });
-  result.failure = weakest->failure;
+  result.failure = failures_text(result);
   return result;
 }
 

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <span>
 
-#include "../../../integrators/taylor_flow.hpp"
 #include "../../exact_flow.hpp"
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/error.hpp"
+#include "phase_flight.hpp"
 #include "threshold_crossing.hpp"
 
 namespace hamjet {
@@ -50,19 +47,6 @@ ThrustPhase phase_at(double primer, double smoothing) {
   return primer > 1 + smoothing || smoothing == 0 ? ThrustPhase::full : ThrustPhase::between;
 }
 
-bool is_linear(ThrustPhase phase, double smoothing) {
-  return phase == ThrustPhase::off || (phase == ThrustPhase::between && smoothing == 1);
-}
-
-/// The parameters of a phase's system (thrusting_system), if the mass stays the same.
-std::vector<double> parameters_of(const ThrustSpan& span, const SwitchedThrust& law) {
-  if (span.phase == ThrustPhase::off) return {0};
-  if (span.phase == ThrustPhase::full) return {0, -span.acceleration};
-  const double slope = law.most / (2 * law.smoothing);
-  if (law.smoothing == 1) return {slope};
-  return {slope, slope * (1 - law.smoothing)};
-}
-
 /// Their change with a change of the law.
 std::vector<double> parameter_changes(ThrustPhase phase, const SwitchedThrust& law,
                                       const SwitchedThrust& change) {
@@ -73,145 +57,6 @@ std::vector<double> parameter_changes(ThrustPhase phase, const SwitchedThrust& l
   if (law.smoothing == 1) return {slope};
   return {slope, slope - change.most / 2};
 }
-
-Eigen::Vector3d primer_costate(std::span<const double> z) {
-  return {z[flown_states + 3], z[flown_states + 4], z[flown_states + 5]};
-}
-
-/// The steps of one phase.
-class PhaseFlight {
- public:
-  PhaseFlight(const SharedSystem& system, const ThrustSpan& span, const SwitchedThrust& law,
-              const ClockTime& start_time)
-      : flow_(system),
-        start_time_(start_time),
-        span_(span),
-        law_(law),
-        is_directed_(!is_linear(span.phase, law.smoothing)),
-        falls_(law.mass_falls() && span.phase == ThrustPhase::full),
-        first_costate_(falls_ ? flown_states + 1 : flown_states),
-        now_(span.start),
-        state_(span.state) {
-    if (falls_) {
-      // The change and its costate stand behind the states and behind the costates.
-      state_.insert(state_.begin() + flown_states, 0.0);
-      state_.insert(state_.end(), {span.threshold, span.acceleration, law.inverse_exhaust});
-    } else {
-      for (const double parameter : parameters_of(span, law)) state_.push_back(parameter);
-    }
-  }
-
-  double now() const { return now_; }
-  double unit() const { return flow_.unit(0); }
-  /// As a phase that begins here.
-  ThrustSpan place() const { return place_of(state_, now_); }
-  bool mass_falls() const { return falls_; }
-
-  /// Expands about the present state; the length of the step that may be taken, up to a time.
-  double expand(double to) {
-    for (std::size_t lane = 0; lane < TaylorFlow::lanes; ++lane) {
-      flow_.set_state(lane, start_time_ + now_, state_);
-    }
-    const std::array<double, 1> span = {to - now_};
-    flow_.expand(span);
-    const double step = std::min(flow_.within_reach(0, to - now_), direction_reach());
-    if (!(step > 1e-14 * std::abs(to - now_)) && !flow_.ends_at_break(0, step)) {
-      throw Error(ErrorKind::numerical,
-                  "thrust: the equations of motion cannot be followed at the deputy's place");
-    }
-    return step;
-  }
-  /// The squared length of the primer vector as a polynomial of the time in units; where the mass
-  /// falls, less that of the threshold.
-  std::vector<double> squared_primer() const {
-    const int powers = flow_.powers(0);
-    std::vector<double> square(static_cast<std::size_t>(2 * powers) + 1, 0.0);
-    const auto add = [&](std::size_t i, double sign) {
-      for (int j = 0; j <= powers; ++j) {
-        for (int k = 0; k <= powers; ++k) {
-          square[static_cast<std::size_t>(j + k)] +=
-              sign * flow_.coefficient(0, i, j) * flow_.coefficient(0, i, k);
-        }
-      }
-    };
-    for (std::size_t i = 3; i < 6; ++i) add(first_costate_ + i, 1);
-    if (falls_) add(first_costate_ + flown_states, -1);
-    return square;
-  }
-  /// The place at a time after the present one, and the rates of its state.
-  ThrustSpan evaluate(double after, std::vector<double>& rates) const {
-    std::vector<double> state, all_rates;
-    evaluate(after, state, &all_rates);
-    rates = outer(all_rates);
-    return place_of(state, now_ + after);
-  }
-  /// A step of a length, but no further than to a time, which rounding shall not miss.
-  void step(double length, double to) {
-    const bool is_last = length >= to - now_;
-    step(is_last ? to - now_ : length);
-    if (is_last) now_ = to;
-  }
-  void step(double length) {
-    std::vector<double> next;
-    evaluate(length, next, nullptr);
-    state_ = std::move(next);
-    now_ += length;
-  }
-
- private:
-  void evaluate(double after, std::vector<double>& state, std::vector<double>* rates) const {
-    state.resize(state_.size());
-    flow_.evaluate(0, after, state);
-    if (rates == nullptr) return;
-    rates->assign(state_.size(), 0.0);
-    const double x = after / unit();
-    for (std::size_t i = 0; i < rates->size(); ++i) {
-      for (int k = flow_.powers(0); k >= 1; --k) {
-        (*rates)[i] = (*rates)[i] * x + k * flow_.coefficient(0, i, k);
-      }
-      (*rates)[i] /= unit();
-    }
-  }
-  /// States and costates of what is integrated.
-  std::vector<double> outer(const std::vector<double>& all) const {
-    std::vector<double> result(all.begin(), all.begin() + flown_states);
-    const auto costates = all.begin() + static_cast<std::ptrdiff_t>(first_costate_);
-    result.insert(result.end(), costates, costates + flown_states);
-    return result;
-  }
-  ThrustSpan place_of(const std::vector<double>& all, double time) const {
-    ThrustSpan place = span_;
-    place.start = place.end = time;
-    place.state = outer(all);
-    if (falls_) {
-      place.acceleration *= std::exp(all[flown_states] * law_.inverse_exhaust);
-      place.threshold = all[first_costate_ + flown_states];
-    }
-    return place;
-  }
-
-  /// Half the time in which the primer vector could vanish, where its direction is singular. Along
-  /// a line the direction stays the same, and its coefficients, which are rounding alone, would not
-  /// tell.
-  double direction_reach() const {
-    if (!is_directed_) return std::numeric_limits<double>::infinity();
-    double rate = 0;
-    for (std::size_t i = 3; i < 6; ++i) {
-      rate = std::hypot(rate, flow_.coefficient(0, first_costate_ + i, 1) / unit());
-    }
-    return primer_costate(outer(state_)).norm() / (2 * rate);
-  }
-
-  TaylorFlow flow_;
-  ClockTime start_time_;
-  const ThrustSpan& span_;
-  const SwitchedThrust& law_;
-  bool is_directed_;
-  bool falls_;
-  std::size_t first_costate_;
-  double now_;
-  std::vector<double> state_;
-};
 
 void require_numbers(const ThrustSpan& place) {
   for (const double x : place.state) {
@@ -251,13 +96,13 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
     PhaseFlight flight(system_of(span.phase, law), span, law, start_time_);
     std::optional<double> lower = lower_threshold(span.phase, law.smoothing);
     std::optional<double> upper = upper_threshold(span.phase, law.smoothing);
-    if (flight.mass_falls()) lower = 0;
+    if (flight.burns_mass()) lower = 0;  // see switching_function
     if (upper) *upper *= span.threshold;
     std::optional<ThresholdCrossing> crossing;
     bool is_above = false;
     while (!crossing && flight.now() < duration_) {
       const double step = flight.expand(duration_);
-      const std::vector<double> square = flight.squared_primer();
+      const std::vector<double> square = flight.switching_function();
       const double reach = step / flight.unit();
       if (lower) {
         crossing = first_fall_below(square, *lower * *lower, reach, entered_from_below == true);
@@ -282,7 +127,6 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
     spans.push_back(span);
     ThrustSpan next = flight.place();
     require_numbers(next);
-    next.primer_rate = 0;
     span = std::move(next);
     if (!crossing) break;
     span.phase = phase_beyond(phase, is_above, law.smoothing);
@@ -330,8 +174,9 @@ SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan
   return carried.topRows<6>();
 }
 
-// Beside states and costates the full acceleration and the threshold are carried. Neither the
-// threshold nor, but for its size, the thrust has a rate of its own at a switch.
+// As above, and beside states and costates the full acceleration and the threshold are carried,
+// which rest in coasts. The threshold's rate is zero at a switch, on both sides of it; a burn that
+// is longer by dt has spent a dt more, of which the acceleration behind it grows.
 SwitchedFlight::Commanded SwitchedFlight::commanded_by_falling_mass(
     const std::vector<ThrustSpan>& flown, const SwitchedThrust& law) const {
   constexpr Eigen::Index n = flown_states;
