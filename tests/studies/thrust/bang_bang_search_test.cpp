@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "../../../src/studies/formation/thrust/threshold_crossing.hpp"
@@ -58,10 +60,14 @@ TEST(BangBangSearch, RestToRestIsThatOfTheClosedForm) {
 // The same while the mass falls, with the acceleration a = a0 exp(v / c) after the change v: a burn
 // to the speed V takes the time c / a (1 - exp(-V / c)), c / a being the time in which the mass
 // would be used up, and goes c ((c / a - t) ln(1 - t a / c) + t); V is such that the way is 1.
+// An acceleration of 0.95 would be too weak if it did not grow.
 TEST(BangBangSearch, RestToRestByFallingMassIsThatOfTheClosedForm) {
   const SwitchedFlight flight(system_of(0), ClockTime::epoch(), 2);
-  for (const double exhaust : {100.0, 2.0, 1.0}) {
-    BangBangTask task = rest_to_rest(1.25);
+  using Thruster = std::pair<double, double>;
+  for (const Thruster& thruster :
+       {Thruster(1.25, 100), Thruster(1.25, 2), Thruster(1.25, 1), Thruster(0.95, 1)}) {
+    const double exhaust = thruster.second;
+    BangBangTask task = rest_to_rest(thruster.first);
     task.inverse_exhaust = 1 / exhaust;
     const auto burn_time = [&](double acceleration, double speed) {
       return -exhaust / acceleration * std::expm1(-speed / exhaust);
@@ -102,6 +108,14 @@ TEST(BangBangSearch, TooWeakIsToldWithTheLeastThatIsNot) {
   ASSERT_TRUE(thrust.lowest);
   EXPECT_GE(*thrust.lowest, 1);
   EXPECT_LE(*thrust.lowest, 1.01);
+}
+
+TEST(BangBangSearch, TooStrongEndsAtOnce) {
+  const SwitchedFlight flight(system_of(0), ClockTime::epoch(), 2);
+  const BangBangThrust thrust = bang_bang_thrust(flight, rest_to_rest(1e8));
+  EXPECT_NE(thrust.failure.find("times as strong as least energy asks for"), std::string::npos)
+      << thrust.failure;
+  EXPECT_LE(thrust.flights, 1);
 }
 
 TEST(BangBangSearch, ADeputyThatArrivesByCoastingNeedsNoThrust) {

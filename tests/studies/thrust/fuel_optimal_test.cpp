@@ -117,6 +117,10 @@ TEST(FuelOptimal, FallingMassIsFlownInAnotherProgram) {
   Scene scene = fuel_scene({5.0}, 0.08);
   const double constant_m_s = study_transfer(scene).fuel->transfers.at(0).change_m_s;
   scene.thruster->mass_kg = 500;
+  // An exhaust as fast as this takes no mass, and leaves no rounding in the change.
+  scene.thruster->exhaust_m_s = 1e15 * constant_m_s;
+  EXPECT_NEAR(study_transfer(scene).fuel->transfers.at(0).change_m_s, constant_m_s,
+              1e-9 * constant_m_s);
   scene.thruster->exhaust_m_s = 2.5 * constant_m_s;
   const TransferResult result = study_transfer(scene);
   const FuelOptimalTransfer& transfer = result.fuel->transfers.at(0);
