@@ -40,10 +40,8 @@ DeputyMotion study_deputy_motion(const Scene& asked, const ProgressCallback& pro
   if (!asked.manoeuvres.empty() || !asked.deputy->manoeuvres.empty()) {
     return manoeuvred_motion(asked, progress);
   }
-  const bool is_charted = asked.coordinates != JetCoordinates::cartesian &&
-                          asked.coordinates != JetCoordinates::flow_box &&
-                          asked.coordinates != JetCoordinates::automatic;
-  if (is_charted && !is_like_chief(asked)) {
+  const bool is_automatic = asked.coordinates == JetCoordinates::automatic;
+  if (!is_automatic && !serve_parameters(asked.coordinates) && !is_like_chief(asked)) {
     throw Error(ErrorKind::scene,
                 fmt::format("jet.coordinates: of a deputy whose coefficients differ from its "
                             "chief's, got {}, must be cartesian, flow-box or auto",

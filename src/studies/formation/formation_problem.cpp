@@ -123,9 +123,8 @@ Scene with_deputy_parameters(Scene scene) {
     scene.variables.push_back(scene.nominal.size());
     scene.nominal.push_back(value);
   }
-  const bool serves_parameters = scene.coordinates == JetCoordinates::flow_box ||
-                                 scene.coordinates == JetCoordinates::automatic;
-  if (!serves_parameters) scene.coordinates = {};
+  const bool is_automatic = scene.coordinates == JetCoordinates::automatic;
+  if (!is_automatic && !serve_parameters(scene.coordinates)) scene.coordinates = {};
   return scene;
 }
 

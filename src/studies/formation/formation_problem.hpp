@@ -39,6 +39,11 @@ void require_one_spacecraft(const Scene& scene, std::string_view table);
 /// The scene whose chief has the deputy's C_D A / m and C_R A / m, in the light of the chief.
 Scene with_deputy_coefficients(Scene scene);
 
+/// Whether polynomials in these coordinates can have parameters among their variables.
+inline bool serve_parameters(const CoordinatesAtEnds& coordinates) {
+  return coordinates == JetCoordinates::cartesian || coordinates == JetCoordinates::flow_box;
+}
+
 /// The scene whose states end with the parameters in which the deputy differs from the chief, those
 /// alone, and whose jets are expanded in them.
 Scene with_deputy_parameters(Scene scene);

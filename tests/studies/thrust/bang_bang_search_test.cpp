@@ -189,13 +189,15 @@ TEST(BangBangSearch, OutOfPlaneMotionIsStoppedAsByTheClosedForm) {
 TEST(BangBangSearch, DerivativesAreThoseOfFlights) {
   const SwitchedFlight flight(system_of(1), ClockTime::epoch(), 5);
   const std::vector<double> start = {0.1, 0.2, -0.1, 0, 0.3, 0.1, 0.6, -1.8, 0.4, 0.5, 0.2, -0.7};
-  const SwitchedThrust change = {0.3, -0.2};
-  for (const double smoothing : {0.0, 0.3, 1.0}) {
-    const SwitchedThrust law = {0.2, smoothing};
+  const SwitchedThrust change = {0.3, -0.2, 0.25};
+  for (const SwitchedThrust& law : {SwitchedThrust{0.2, 0}, SwitchedThrust{0.2, 0.3},
+                                    SwitchedThrust{0.2, 1}, SwitchedThrust{0.2, 0, 0.5}}) {
+    const double smoothing = law.smoothing;
     const auto flown = flight.fly(start, law);
     ASSERT_GT(flown.size(), smoothing < 1 ? 3U : 1U) << smoothing;
     // With e = 0 the law may change its limit alone, and with e = 1 its form changes too.
-    const SwitchedThrust by = {change.most, smoothing == 0.3 ? change.smoothing : 0};
+    const SwitchedThrust by = {change.most, smoothing == 0.3 ? change.smoothing : 0,
+                               law.mass_falls() ? change.inverse_exhaust : 0};
     const SwitchedFlight::Commanded commanded = flight.commanded(flown, law, by);
     constexpr double step = 1e-5;
     for (Eigen::Index j = 0; j < 7; ++j) {
@@ -208,6 +210,7 @@ TEST(BangBangSearch, DerivativesAreThoseOfFlights) {
         } else {
           moved_law.most += sign * step * by.most;
           moved_law.smoothing += sign * step * by.smoothing;
+          moved_law.inverse_exhaust += sign * step * by.inverse_exhaust;
         }
         const auto end = flight.fly(moved, moved_law).back().state;
         for (Eigen::Index i = 0; i < 6; ++i) {

@@ -55,15 +55,11 @@ class BangBangSearch {
     }
     const double ratio = std::log(task_.most / point->law.most);
     // A thruster that is too weak at first may gain by the fall of the mass what it lacks.
-    if (task_.inverse_exhaust > 0 && ratio < 0) return by_falling_mass(std::move(*point));
+    if (task_.inverse_exhaust > 0 && ratio < 0) return finished(std::move(*point));
     if (!follow(*point, {task_.most, moving_smoothing}, std::min(0.1, 0.005 / std::abs(ratio)))) {
-      if (ratio < 0) result_.lowest = point->law.most;
-      return failed(
-          fmt::format("thrust was followed to {:.4g} times the thruster's acceleration, "
-                      "and no further",
-                      point->law.most / task_.most));
+      return failed_at(*point);
     }
-    return by_falling_mass(std::move(*point));
+    return finished(std::move(*point));
   }
 
  private:
@@ -77,7 +73,7 @@ class BangBangSearch {
 
   /// From a smoothed thrust to one without smoothing at the same limit; then to the task's fall of
   /// the mass, and last to its limit.
-  BangBangThrust by_falling_mass(Point point) {
+  BangBangThrust finished(Point point) {
     std::optional<Point> sharp = without_smoothing(point);
     if (!sharp) {
       return failed(
@@ -85,21 +81,21 @@ class BangBangSearch {
                       "cost, and none without was found",
                       point.law.smoothing));
     }
-    if (!follow_sharp(*sharp, {sharp->law.most, 0, task_.inverse_exhaust})) {
+    if (!follow(*sharp, {sharp->law.most, 0, task_.inverse_exhaust}, 1e-3)) {
       return failed(fmt::format("thrust was followed to {:.3g} parts of the fall of the mass",
                                 sharp->law.inverse_exhaust / task_.inverse_exhaust));
     }
-    const bool is_weaker = task_.most < sharp->law.most;
-    if (!follow_sharp(*sharp, {task_.most, 0, task_.inverse_exhaust})) {
-      if (is_weaker) result_.lowest = sharp->law.most;
-      return failed(
-          fmt::format("thrust was followed to {:.4g} times the thruster's acceleration, "
-                      "and no further",
-                      sharp->law.most / task_.most));
-    }
+    if (!follow(*sharp, {task_.most, 0, task_.inverse_exhaust}, 1e-3)) return failed_at(*sharp);
     return found(polished(std::move(*sharp)));
   }
 
+  BangBangThrust failed_at(const Point& point) {
+    if (task_.most < point.law.most) result_.lowest = point.law.most;
+    return failed(
+        fmt::format("thrust was followed to {:.4g} times the thruster's acceleration, "
+                    "and no further",
+                    point.law.most / task_.most));
+  }
   BangBangThrust failed(std::string reason) {
     if (phases_ > most_phases_flown) reason += ", after so many flights that it was given up";
     result_.failure = std::move(reason);
@@ -119,40 +115,6 @@ class BangBangSearch {
       if (!follow(point, {point.law.most, point.law.smoothing / 10}, 1e-2)) break;
     }
     return std::nullopt;
-  }
-
-  /// Follows limit and exhaust of a thrust without smoothing, along the line through the last two
-  /// points; the point is then the last one that was found.
-  bool follow_sharp(Point& point, const SwitchedThrust& to) {
-    constexpr double least_step = 1e-3;
-    const SwitchedThrust from = point.law;
-    double done = 0, step = 1;
-    std::vector<double> rates(point.costates.size(), 0.0);
-    while (from.most != to.most || from.inverse_exhaust != to.inverse_exhaust) {
-      const double share = std::min(1.0, done + step);
-      const SwitchedThrust law =
-          share == 1 ? to
-                     : SwitchedThrust{from.most * std::pow(to.most / from.most, share), 0,
-                                      from.inverse_exhaust +
-                                          share * (to.inverse_exhaust - from.inverse_exhaust)};
-      std::vector<double> guess = point.costates;
-      for (std::size_t i = 0; i < guess.size(); ++i) guess[i] += (share - done) * rates[i];
-      std::optional<Point> next = solved(guess, law);
-      if (!next) {
-        step /= 3;
-        if (step < least_step) return false;
-        continue;
-      }
-      for (std::size_t i = 0; i < rates.size(); ++i) {
-        rates[i] = (next->costates[i] - point.costates[i]) / (share - done);
-      }
-      point = std::move(*next);
-      ++result_.steps;
-      done = share;
-      if (done == 1) return true;
-      step *= 2;
-    }
-    return true;
   }
 
   /// On to rounding.
@@ -249,13 +211,15 @@ class BangBangSearch {
     return step.allFinite() ? moved(point.costates, step) : point.costates;
   }
 
-  /// Follows the logarithms of the law in steps down to a least part of the way; the point is then
-  /// the last one that was found.
+  /// Follows the law in steps down to a least part of the way, limit and smoothing by their
+  /// logarithms; the point is then the last one that was found.
   bool follow(Point& point, const SwitchedThrust& to, double least_step) {
     constexpr int most_attempts = 120;
     const SwitchedThrust from = point.law;
+    if (from == to) return true;
     const double most_rate = std::log(to.most / from.most);
-    const double smoothing_rate = std::log(to.smoothing / from.smoothing);
+    const double smoothing_rate = to.smoothing > 0 ? std::log(to.smoothing / from.smoothing) : 0;
+    const double exhaust_rate = to.inverse_exhaust - from.inverse_exhaust;
     double done = 0;
     double step = 0.25;
     for (int attempts = 0; attempts < most_attempts && done < 1; ++attempts) {
@@ -265,9 +229,11 @@ class BangBangSearch {
       const SwitchedThrust law =
           is_last ? to
                   : SwitchedThrust{from.most * std::exp(share * most_rate),
-                                   from.smoothing * std::exp(share * smoothing_rate)};
+                                   from.smoothing * std::exp(share * smoothing_rate),
+                                   from.inverse_exhaust + share * exhaust_rate};
       const SwitchedThrust change = {point.law.most * most_rate * step,
-                                     point.law.smoothing * smoothing_rate * step};
+                                     point.law.smoothing * smoothing_rate * step,
+                                     exhaust_rate * step};
       std::optional<Point> next = solved(predicted(point, change), law);
       if (!next) {
         step /= 3;

@@ -10,6 +10,7 @@
 
 #include "../../exact_flow.hpp"
 #include "../../flights/paced_times.hpp"
+#include "../burns/canonical_thruster.hpp"
 #include "../formation_problem.hpp"
 #include "../impulses/planned_transfer.hpp"
 #include "../single_transfer.hpp"
@@ -35,7 +36,7 @@ class FuelOptimalStudy {
         with_costates_(costate_problem(orbit, 1)),
         flow_(flow),
         units_(metric_units(scene)),
-        acceleration_(scene.thruster->acceleration_m_s2 * units_.time_s / units_.velocity_m_s()) {
+        thruster_(*scene.thruster, units_) {
     // The bound is that of impulses of any size, anywhere, that do arrive.
     unlimited_.transfer->refined_miss_m =
         std::min(unlimited_.transfer->refined_miss_m, TransferSettings{}.refined_miss_m);
@@ -104,11 +105,7 @@ class FuelOptimalStudy {
   }
 
  private:
-  SwitchedThrust law() const { return {acceleration_, 0, inverse_exhaust()}; }
-  double inverse_exhaust() const {
-    const auto& exhaust_m_s = scene_.thruster->exhaust_m_s;
-    return exhaust_m_s ? units_.velocity_m_s() / *exhaust_m_s : 0;
-  }
+  SwitchedThrust law() const { return {thruster_.acceleration, 0, 1 / thruster_.exhaust}; }
 
   BangBangTask task(const ThrustedFlight& ends, const EnergyOptimalTransfer& energy) const {
     BangBangTask task;
@@ -119,8 +116,8 @@ class FuelOptimalStudy {
     }
     task.energy_costates = energy.refined->costates;
     task.energy_largest = energy.largest_m_s2 * units_.time_s / units_.velocity_m_s();
-    task.most = acceleration_;
-    task.inverse_exhaust = inverse_exhaust();
+    task.most = law().most;
+    task.inverse_exhaust = law().inverse_exhaust;
     task.tolerance = scene_.transfer->refined_miss_m / units_.length_m;
     return task;
   }
@@ -238,7 +235,7 @@ class FuelOptimalStudy {
   ComputedProblem with_costates_;
   const CompanionFlow& flow_;
   MetricUnits units_;
-  double acceleration_;  ///< canonical
+  CanonicalThruster thruster_;
 };
 
 /// Evenly spread over a list, and including its last entry.

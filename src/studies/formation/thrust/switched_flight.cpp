@@ -137,27 +137,16 @@ std::vector<ThrustSpan> SwitchedFlight::fly(const std::vector<double>& start,
   return spans;
 }
 
-// Derivatives are carried at fixed times. A switch that is later by dt changes the velocity behind
-// it by dt times what the acceleration before it is larger; where the thrust is continuous, by
-// nothing.
+// Where the thrust is continuous, a switch that is later changes nothing behind it.
 SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan>& flown,
                                                     const SwitchedThrust& law,
                                                     const SwitchedThrust& change) const {
-  if (law.mass_falls()) return commanded_by_falling_mass(flown, law);
+  if (law.smoothing == 0) return commanded_across_switches(flown, law, change);
   constexpr Eigen::Index all = 2 * flown_states;
   Eigen::Matrix<double, all, 7> carried = Eigen::Matrix<double, all, 7>::Zero();
   carried.bottomLeftCorner<6, 6>().setIdentity();
   for (std::size_t k = 0; k + 1 < flown.size(); ++k) {
     const ThrustSpan& span = flown[k];
-    if (k > 0 && law.smoothing == 0) {
-      const Eigen::Vector3d costate = primer_costate(span.state);
-      const Eigen::Vector3d direction = -costate.normalized();
-      // With e = 0 the thresholds move with a change of e both ways, which is not asked for.
-      const Eigen::Matrix<double, 1, 7> later =
-          direction.transpose() * carried.bottomRows<3>() / span.primer_rate;
-      const double more = span.phase == ThrustPhase::full ? -span.acceleration : span.acceleration;
-      carried.middleRows<3>(3) += more * direction * later;
-    }
     if (!(span.length() > 1e-13 * duration_)) continue;
     std::vector<double> start = span.state;
     for (const double parameter : parameters_of(span, law)) start.push_back(parameter);
@@ -174,22 +163,26 @@ SwitchedFlight::Commanded SwitchedFlight::commanded(const std::vector<ThrustSpan
   return carried.topRows<6>();
 }
 
-// As above, and beside states and costates the full acceleration and the threshold are carried,
-// which rest in coasts. The threshold's rate is zero at a switch, on both sides of it; a burn that
-// is longer by dt has spent a dt more, of which the acceleration behind it grows.
-SwitchedFlight::Commanded SwitchedFlight::commanded_by_falling_mass(
-    const std::vector<ThrustSpan>& flown, const SwitchedThrust& law) const {
+// Derivatives are carried at fixed times, of states, costates, the full acceleration and the
+// threshold; the last two rest in coasts. A switch that is later by dt changes the velocity behind
+// it by dt times what the acceleration before it is larger, and so the change that is spent, of
+// which the acceleration grows. The threshold's rate is zero at a switch, on both sides of it. With
+// e = 0 the thresholds move with a change of e both ways, which is not asked for.
+SwitchedFlight::Commanded SwitchedFlight::commanded_across_switches(
+    const std::vector<ThrustSpan>& flown, const SwitchedThrust& law,
+    const SwitchedThrust& change) const {
   constexpr Eigen::Index n = flown_states;
-  constexpr Eigen::Index acceleration = n, costates = n + 1, threshold = 2 * n + 1;
+  constexpr Eigen::Index acceleration = n, costates = n + 1, threshold = 2 * n + 1, all = 2 * n + 2;
   const double tolerance = tolerance_of_switched_commands(0);
-  Eigen::Matrix<double, 2 * n + 2, n> carried = Eigen::Matrix<double, 2 * n + 2, n>::Zero();
-  carried.middleRows<n>(costates).setIdentity();
+  Eigen::Matrix<double, all, 7> carried = Eigen::Matrix<double, all, 7>::Zero();
+  carried.block<n, n>(costates, 0).setIdentity();
+  carried(acceleration, 6) = change.most;
   for (std::size_t k = 0; k + 1 < flown.size(); ++k) {
     const ThrustSpan& span = flown[k];
     const bool burns = span.phase == ThrustPhase::full;
     if (k > 0) {
       const Eigen::Vector3d direction = -primer_costate(span.state).normalized();
-      const Eigen::Matrix<double, 1, n> later =
+      const Eigen::Matrix<double, 1, 7> later =
           (direction.transpose() * carried.middleRows<3>(costates + 3) + carried.row(threshold)) /
           span.primer_rate;
       const double more = burns ? -span.acceleration : span.acceleration;
@@ -202,7 +195,7 @@ SwitchedFlight::Commanded SwitchedFlight::commanded_by_falling_mass(
       start.push_back(0);
       const Matrix<double> flow = linear_part(
           linear_jet(coasting_, start, start_time_ + span.start, span.length(), tolerance));
-      Eigen::Matrix<double, 2 * n, n> both;
+      Eigen::Matrix<double, 2 * n, 7> both;
       both << carried.topRows<n>(), carried.middleRows<n>(costates);
       both = flow.topLeftCorner<2 * n, 2 * n>() * both.eval();
       carried.topRows<n>() = both.topRows<n>();
@@ -214,15 +207,19 @@ SwitchedFlight::Commanded SwitchedFlight::commanded_by_falling_mass(
     Matrix<double> flow = linear_part(
         linear_jet(falling_, start, start_time_ + span.start, span.length(), tolerance));
     // The first acceleration takes the place of the change, which begins at zero.
-    flow.col(acceleration) = flow.col(2 * n + 2);
-    Eigen::Matrix<double, 2 * n + 2, n> next = flow.topLeftCorner<2 * n + 2, 2 * n + 2>() * carried;
-    next.row(acceleration) =
-        flown[k + 1].acceleration * (carried.row(acceleration) / span.acceleration +
+    flow.col(acceleration) = flow.col(all);
+    Eigen::Matrix<double, all, 7> next = flow.topLeftCorner<all, all>() * carried;
+    next.col(6) += flow.block<all, 1>(0, all + 1) * change.inverse_exhaust;
+    const double last = flown[k + 1].acceleration;
+    const double spent = law.mass_falls() ? std::log(last / span.acceleration) / law.inverse_exhaust
+                                          : span.acceleration * span.length();
+    next.row(acceleration) = last * (carried.row(acceleration) / span.acceleration +
                                      law.inverse_exhaust * next.row(acceleration));
+    next(acceleration, 6) += last * spent * change.inverse_exhaust;
     carried = next;
   }
-  Commanded result = Commanded::Zero();
-  result.leftCols<n>() = carried.topRows<n>();
+  Commanded result;
+  result << carried.topRows<n>();
   return result;
 }
 

@@ -27,6 +27,7 @@ struct SwitchedThrust {
   double inverse_exhaust = 0;
 
   bool mass_falls() const { return inverse_exhaust > 0; }
+  bool operator==(const SwitchedThrust&) const = default;
 };
 
 enum class ThrustPhase { off, between, full };
@@ -64,7 +65,7 @@ class SwitchedFlight {
   std::vector<ThrustSpan> fly(const std::vector<double>& start, const SwitchedThrust& law) const;
   /// How the state of the end moves with the costates of the start (six columns), and when the law
   /// moves by `change` (the seventh): the flow of each phase, and what the switches in between are
-  /// later. Where the mass falls, the seventh is zero. Throws as integrate_gauss.
+  /// later. Throws as integrate_gauss.
   Commanded commanded(const std::vector<ThrustSpan>& flown, const SwitchedThrust& law,
                       const SwitchedThrust& change) const;
 
@@ -87,8 +88,9 @@ class SwitchedFlight {
 
  private:
   const SharedSystem& system_of(ThrustPhase phase, const SwitchedThrust& law) const;
-  Commanded commanded_by_falling_mass(const std::vector<ThrustSpan>& flown,
-                                      const SwitchedThrust& law) const;
+  Commanded commanded_across_switches(const std::vector<ThrustSpan>& flown,
+                                      const SwitchedThrust& law,
+                                      const SwitchedThrust& change) const;
 
   SharedSystem coasting_;  ///< and of a linear thrust
   SharedSystem directed_;

@@ -372,8 +372,7 @@ ChosenCoordinates measured_coordinates_of(const Scene& scene) {
   ValidityInCoordinates all = study_validity_in_all(measured, nullptr);
   if (measured.nominal.size() != scene.nominal.size()) {
     std::erase_if(all.results, [](const ValidityResult& result) {
-      return result.coordinates.start != JetCoordinates::cartesian &&
-             result.coordinates.start != JetCoordinates::flow_box;
+      return !serve_parameters(result.coordinates);
     });
   }
   return all.chosen();
