@@ -245,7 +245,7 @@ void expect_those_of_shooting(const Orbit& orbit, double separation_m,
     ASSERT_LT(other.missing.norm(), 1e-12);
     const double energy = static_cast<double>(other.end[12]) * energy_unit(scene);
     // The answer was corrected to 1e-7 of the separation.
-    EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-5 * energy);
+    EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-9 * energy);
     const auto wrong = [&](std::size_t k) {
       return std::abs(transfer.answers[k].energy_m2_s3 / energy - 1);
     };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "energy_optimal_flights.hpp"
@@ -37,6 +38,20 @@ TEST(EnergyOptimal, CostatesLeadToTheEndInAnotherProgram) {
               2 * transfer.time * units.time_s * transfer.energy_m2_s3);
     EXPECT_GT(transfer.change_m_s, 0);
   }
+}
+
+// At e = 0.9 the thrust changes within a hundredth of the revolution about the perigee.
+TEST(EnergyOptimal, EnergyOfAnEccentricOrbitIsThatOfAnotherProgram) {
+  Scene scene = thrust_scene(1e3, {0.7 * 2 * std::numbers::pi * std::pow(10.0, 1.5)});
+  scene.nominal = {1, 0, 0, 0, std::sqrt(1.9) * 0.6, std::sqrt(1.9) * 0.8};
+  scene.duration = scene.transfer->times[0];
+  const TransferResult result = study_transfer(scene);
+  const EnergyOptimalTransfer& transfer = result.thrust->transfers.at(0);
+  ASSERT_TRUE(transfer.is_found()) << transfer.failure;
+  const Numbers deputy =
+      flown(start_of(scene, scene.transfer->start, transfer.refined->costates), transfer.time);
+  const double energy = static_cast<double>(deputy[12]) * energy_unit(scene);
+  EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-9 * energy);
 }
 
 // Order k misses by a constant times separation^(k+1), and its energy, which is stationary, is

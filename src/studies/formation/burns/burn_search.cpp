@@ -14,6 +14,9 @@ namespace {
 /// A share of the sum of all changes below which an impulse is nothing that a burn could begin
 /// from.
 constexpr double nothing = 1e-9;
+/// A spacecraft of less mass than this share of its first is none, and its last acceleration is
+/// beyond what a flight follows.
+constexpr double least_share_of_mass = 1e-3;
 
 double sum_of(const std::vector<Eigen::Vector3d>& changes) {
   double sum = 0;
@@ -108,6 +111,14 @@ BurnSearch::Attempt BurnSearch::attempt(const CanonicalThruster& thruster, Chang
         if (span.length() <= 2 * duration_) continue;
         result.failure = fmt::format("a burn of {:.4g} s does not fit into {:.6g} s",
                                      seconds(span.length()), seconds(duration_));
+        return result;
+      }
+      if (thruster.mass_after(sum_of(changes), 1) < least_share_of_mass) {
+        result.failure = fmt::format(
+            "burns of {:.4g} m/s would leave less than {} of the mass behind an exhaust of {:.4g} "
+            "m/s",
+            sum_of(changes) * flight_.units().velocity_m_s(), least_share_of_mass,
+            *scene_.thruster->exhaust_m_s);
         return result;
       }
       ++flights_;

@@ -233,7 +233,8 @@ void solve(const Scene& scene, const ComputedProblem& problem,
                               failure, share));
     }
   }
-  flight.measure(transfer, interval_count(scene, transfer.time, quadrature_panels));
+  const int panels = interval_count(scene, transfer.time, quadrature_panels);
+  flight.measure(transfer, paced_times(scene, transfer.time, panels));
   const auto& most = scene.transfer->largest_thrust_m_s2;
   transfer.exceeds_thrust = most && transfer.largest_m_s2 > *most;
 }

@@ -61,8 +61,9 @@ class ThrustedFlight {
   /// The same with the states of another system, which hold the thrust at a place.
   void fly_on(const SharedSystem& system, const ThrustPlace& place, std::vector<double>& z,
               double from, double to, int panels, ThrustIntegrals& integrals) const;
-  /// The integrals of the corrected answer, in `panels` parts, and its thrust at both ends.
-  void measure(EnergyOptimalTransfer& transfer, int panels) const;
+  /// The integrals of the corrected answer, with 8 nodes between each two of the times, from 0 to
+  /// the duration, and its thrust at both ends.
+  void measure(EnergyOptimalTransfer& transfer, const std::vector<double>& times) const;
   /// The thrust of a flight with these costates at the ends of `intervals` equal parts of it.
   std::vector<ThrustSample> profile(const std::vector<double>& costates, int intervals) const;
 
