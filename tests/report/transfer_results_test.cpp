@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "../../src/report/formation/transfer_page.hpp"
 #include "../../src/report/formation/transfer_tables.hpp"
 #include "../../src/report/formation/transfer_view.hpp"
+#include "hamjet/dynamics/system_text.hpp"
 #include "report_tables.hpp"
 #include "transfer_samples.hpp"
 
@@ -101,6 +103,26 @@ TEST(TransferCsv, SingularTimesAndConditions) {
   EXPECT_EQ(conditions.number(1, "qqq-qqq"), 10.0 / 3);
   EXPECT_EQ(conditions.at(3, "qqq-qqq"), "inf");
   EXPECT_EQ(conditions.number(3, "ppp-ppp"), 23);
+}
+
+// A coordinate of an own system may be called r; the chief has no R, T and N there.
+TEST(TransferCsv, SingularTimesOfOwnSystemsAreAlongItsCoordinates) {
+  TransferResult result = sample_transfer();
+  result.scene.transfer->frame = RelativeFrame::coordinates;
+  result.scene.system.own_text = SystemText{};
+  result.scene.system.own_text->coordinates = {"r", "theta"};
+  result.scene.system.own_text->momenta = {"pr", "ptheta"};
+  const Table singular = parse(table_csv(singular_times_table(result)));
+  EXPECT_EQ(singular.number(0, "direction_inertial_r"), 0);
+  EXPECT_EQ(singular.number(0, "direction_inertial_theta"), 0.6);
+  for (const std::string& column : singular.columns) {
+    EXPECT_NE(column, "direction_r");
+    EXPECT_NE(column, "direction_t");
+    EXPECT_NE(column, "direction_n");
+  }
+  const std::string page = singular_table_html(result);
+  EXPECT_EQ(page.find("RTN"), std::string::npos) << page;
+  EXPECT_NE(page.find("(+0.000000, +0.600000)"), std::string::npos) << page;
 }
 
 TEST(TransferView, CountsAndMisses) {

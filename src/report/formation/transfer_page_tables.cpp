@@ -103,28 +103,37 @@ std::string miss_table_html(const TransferResult& result) {
 std::string singular_table_html(const TransferResult& result) {
   const std::vector<SingularTime> times = result.position_singularities();
   if (times.empty()) return "<p>F1 exists at all times of the span.</p>\n";
+  const bool is_along_own = result.scene.transfer->frame == RelativeFrame::coordinates;
+  const std::size_t axes = axis_columns(result.scene.system, result.scene.transfer->frame).size();
   std::string rows;
   for (const SingularTime& singular : times) {
-    const auto text = [](const Eigen::Vector3d& direction) {
-      return fmt::format("({:+.6f}, {:+.6f}, {:+.6f})", direction[0], direction[1], direction[2]);
+    const auto text = [&](const Eigen::Vector3d& direction) {
+      return fmt::format("({:+.6f})", fmt::join(along_told_axes(direction, axes), ", "));
     };
     rows += "<tr>" + row_name_cell(singular_time_text(singular, result.scene.units.time_s, 6)) +
-            cell(fmt::format("{:.12g}", told_time(result.scene, singular.time))) +
-            cell(singular.direction_rtn ? text(*singular.direction_rtn) : "no orbital plane") +
-            cell(text(singular.direction)) + cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
+            cell(fmt::format("{:.12g}", told_time(result.scene, singular.time)));
+    if (!is_along_own) {
+      rows += cell(singular.direction_rtn ? text(*singular.direction_rtn) : "no orbital plane");
+    }
+    rows += cell(text(singular.direction)) + cell(fmt::format("{:.1e}", singular.smallest_ratio)) +
             cell(fmt::format("{:.1e}", singular.second_ratio)) + "</tr>\n";
   }
+  std::vector<std::string> names = {"time (s)", "canonical"};
+  if (is_along_own) {
+    names.emplace_back("direction, along the coordinates");
+  } else {
+    names.insert(names.end(), {"direction, RTN", "direction, inertial"});
+  }
+  names.insert(names.end(), {"smallest ratio", "second ratio"});
   return table_html(
-      "Times at which F1 does not exist: no initial velocity commands the final position along the "
-      "direction, a unit vector along the chief's R, T, N then, and along the inertial axes x, y, "
-      "z. The ratios are the "
-      "two smallest singular values of dq/dp0 over the largest: two small ones say that a whole "
-      "plane of directions is lost, or nearly.",
-      "<tr>" +
-          header_cells({"time (s)", "canonical", "direction, RTN", "direction, inertial",
-                        "smallest ratio", "second ratio"}) +
-          "</tr>",
-      rows);
+      fmt::format("Times at which F1 does not exist: no initial velocity commands the final "
+                  "position along the direction, a unit vector {}. The ratios are the two smallest "
+                  "singular values of dq/dp0 over the largest: two small ones say that a whole "
+                  "plane of directions is lost, or nearly.",
+                  is_along_own
+                      ? "along the system's coordinates"
+                      : "along the chief's R, T, N then, and along the inertial axes x, y, z"),
+      "<tr>" + header_cells(names) + "</tr>", rows);
 }
 
 std::string transfers_table_html(const TransferResult& result) {

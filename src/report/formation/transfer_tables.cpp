@@ -260,9 +260,12 @@ TableView singular_times_table(const TransferResult& result) {
                   [count = directions.size()](Singular singular) {
                     return along_told_axes(singular.direction, count);
                   });
-  table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
-                  "the same unit vector along the chief's R, T, N at that time",
-                  &SingularTime::direction_rtn);
+  if (!is_along_own) {
+    table.add_array("direction_rtn", {"direction_r", "direction_t", "direction_n"}, "",
+                    "the same unit vector along the chief's R, T, N at that time; none along the "
+                    "coordinates of an own system",
+                    &SingularTime::direction_rtn);
+  }
   TableView view = std::move(table).view(result.singular_times, {result.singular_times.size()});
   const std::string f1 = parse_kind("F1", 3).name();
   for (std::size_t i = 0; i < result.singular_times.size(); ++i) {
