@@ -107,8 +107,8 @@ TEST(SystemText, CostsAsMuchHoweverItIsWritten) {
     EXPECT_NEAR(field[i], by_hand[i], 1e-12 * (1 + std::abs(by_hand[i]))) << i;
 }
 
-// x^2 - y is -2^-40 exactly at x = 3, and so is the force; multiplied out it would be the difference
-// of two numbers above a hundred.
+// x^2 - y is -2^-40 exactly at x = 3, and so is the force; multiplied out it would be the
+// difference of two numbers above a hundred.
 TEST(SystemText, KeepsTheDigitsOfASquaredDifference) {
   SystemText text;
   text.coordinates = {"x", "y"};
@@ -210,6 +210,19 @@ TEST(SystemText, WarnsOfLikelyMistakes) {
   const auto linear = likely_mistakes(text, make_system("linear", text));
   ASSERT_EQ(linear.size(), 1U);
   EXPECT_NE(linear[0].second.find("linear in the momenta"), std::string::npos);
+}
+
+TEST(SystemText, WarnsOfMomentaThatStandAtOtherCoordinates) {
+  SystemText text;
+  text.coordinates = {"x", "y"};
+  text.momenta = {"py", "px"};
+  text.hamiltonian = "(px^2 + py^2)/2 + x^2 + y^2";
+  const auto found = likely_mistakes(text, make_system("crossed", text));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].first, "momenta");
+  EXPECT_EQ(found[0].second,
+            "py is the momentum of x by its place, not of y: momenta are in the order of the "
+            "coordinates");
 }
 
 }  // namespace

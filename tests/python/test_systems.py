@@ -131,6 +131,8 @@ def test_parameters_are_variables(tmp_path):
     (lambda q, p: [q, p], "2 expressions, must be 1"),
     (lambda q, r: q, "an argument r, must be one of"),
     (lambda q, p: "text" * q, "wrong type, got str"),
+    (lambda q, p: p[0]**2 / 2 + q[0]**2, "one variable is used as a vector"),
+    (lambda q: sum(x**2 for x in q), "one variable is used as a vector"),
 ])
 def test_what_cannot_be_traced_is_said(function, words):
     with pytest.raises(hamjet.UsageError, match=words):

@@ -30,6 +30,21 @@ def test_jets_are_those_of_runs_to_their_times(followed):
         assert np.allclose(jet.nominal_final, expected.nominal_final, rtol=0, atol=1e-12)
 
 
+def test_the_last_time_is_that_of_the_scene_to_its_rounding():
+    rounded = 0
+    for height in range(400, 430):
+        of_scene = {"system": {"model": "kepler", "mu_km3_s2": 398600.4415},
+                    "nominal": {"a_km": 6378.137 + height, "e": 0.001, "i_deg": 50, "raan_deg": 1,
+                                "argp_deg": 0, "ta_deg": 2},
+                    "jet": {"order": 1, "duration_s": 600.0}}
+        last = hamjet.trajectory(of_scene)
+        rounded += last.duration_s != 600.0
+        assert np.array_equal(last.at(600.0).coefficients, last.at(last.duration_s).coefficients)
+        with pytest.raises(hamjet.UsageError, match="out of range"):
+            last.at(600.000001)
+    assert rounded > 0
+
+
 def test_of_several_times_there_is_a_jet_each(followed):
     times = np.linspace(0, followed.duration_s, 4)
     for given in (times, list(times), tuple(times)):

@@ -129,6 +129,12 @@ TEST(OrbitSummary, GuaranteesNoHeightWithAZonalField) {
   const std::string text = orbit_text(orbit);
   EXPECT_EQ(text.find("at least"), std::string::npos) << text;
   EXPECT_NE(text.find("several times J2 R^2/a = 6.4 km"), std::string::npos) << text;
+  // EGM96's C(2,0) of -4.84165e-4 is J2 = 1.08263e-3, and at 522 km R^2/a is 5895.6 km.
+  const OrbitSummary earth =
+      kepler_summary("epoch_utc = \"2023-05-16T06:00:00\"\n" + elements_of(6900, 0.01, 180),
+                     "duration_orbits = 3", "model = \"earth\"\n");
+  EXPECT_NE(orbit_text(earth).find("several times J2 R^2/a = 6.4 km"), std::string::npos)
+      << orbit_text(earth);
 }
 
 }  // namespace

@@ -221,6 +221,18 @@ std::vector<std::pair<std::string, std::string>> likely_mistakes(const SystemTex
     found.emplace_back(name, "nothing uses it");
   }
   if (!text.is_hamiltonian()) return found;
+  for (std::size_t i = 0; i < text.momenta.size(); ++i) {
+    for (std::size_t j = 0; j < text.coordinates.size(); ++j) {
+      const std::string& coordinate = text.coordinates[j];
+      const bool is_named_so =
+          text.momenta[i] == "p" + coordinate || text.momenta[i] == "p_" + coordinate;
+      if (i == j || !is_named_so) continue;
+      found.emplace_back(
+          "momenta", fmt::format("{} is the momentum of {} by its place, not of {}: momenta are "
+                                 "in the order of the coordinates",
+                                 text.momenta[i], text.coordinates[i], coordinate));
+    }
+  }
   const OperationList& field = system.vector_field;
   const std::size_t n = system.degrees_of_freedom;
   const std::uint64_t momenta = ((std::uint64_t{1} << n) - 1) << n;

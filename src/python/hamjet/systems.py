@@ -242,7 +242,15 @@ def _traced(function: Callable[..., Any], vectors: Mapping[str, tuple[str, ...]]
             keywords[name] = known[name]
         else:
             arguments.append(known[name])
-    return function(*arguments, **keywords)
+    try:
+        return function(*arguments, **keywords)
+    except TypeError as error:
+        if "'Symbol'" not in str(error) and "Symbol object" not in str(error):
+            raise
+        raise UsageError(
+            f"system: one variable is used as a vector ({error}): an argument with the name of a "
+            "variable is that variable, must be used as a number, or the vector have another name: "
+            f"{', '.join(name for name in (*vectors, 'z') if name not in symbols)}") from None
 
 
 def _array(symbols: list[Symbol]) -> Any:

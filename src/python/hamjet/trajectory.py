@@ -62,6 +62,9 @@ class Trajectory:
 
     def _at(self, time_s: float) -> Jet:
         time = arguments.number(time_s, "time_s")
+        # The seconds that a scene was given are rounded in its canonical unit.
+        if abs(time - self.duration_s) <= 4 * np.spacing(abs(self.duration_s)):
+            time = self.duration_s
         if not min(0.0, self.duration_s) <= time <= max(0.0, self.duration_s):
             raise UsageError(f"time_s: out of range, got {time:g}, must be a number from 0 to "
                              f"{self.duration_s:g}")

@@ -8,6 +8,7 @@
 
 #include "../../dynamics/celestial_bodies.hpp"
 #include "../../text/quantity_text.hpp"
+#include "hamjet/detail/dynamics/spherical_harmonic_coefficients.hpp"
 #include "hamjet/dynamics/mean_elements.hpp"
 #include "hamjet/error.hpp"
 
@@ -99,6 +100,11 @@ std::string period_text(double seconds) {
   return fmt::format("{:.3f} days", seconds / day);
 }
 
+double second_zonal_of(const SystemSettings& system) {
+  if (system.earth) return -std::sqrt(5.0) * system.earth->field->C(2, 0);
+  return system.model == SystemModel::zonal_gravity ? system.J[2] : 0;
+}
+
 void add_mean_elements(const Scene& scene, OrbitSummary& summary) {
   const double speed_km_s = scene.units.length_km / scene.units.time_s;
   CartesianState start;
@@ -157,13 +163,14 @@ std::optional<OrbitSummary> orbit_summary(const Scene& scene) {
     summary.revolutions = std::abs(scene.duration) / orbit.period();
   }
   summary.lowest_km = orbit.lowest(scene.duration) * units.length_km;
-  if (scene.system.model == SystemModel::zonal_gravity && scene.system.J[2] != 0) {
+  const double J2 = second_zonal_of(scene.system);
+  if (J2 != 0) {
     const double radius_km = scene.system.radius_km;
     const double size_km =
         (orbit.is_ellipse() ? orbit.perigee() + orbit.apogee() : 2 * orbit.perigee()) / 2 *
         units.length_km;
-    summary.perturbation_km = std::abs(scene.system.J[2]) * radius_km * radius_km / size_km;
-    add_mean_elements(scene, summary);
+    summary.perturbation_km = std::abs(J2) * radius_km * radius_km / size_km;
+    if (!scene.system.earth) add_mean_elements(scene, summary);
   }
   if (scene.system.radius_km > 0) {
     summary.surface_km = scene.system.radius_km;

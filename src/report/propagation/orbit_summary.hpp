@@ -30,7 +30,7 @@ struct OrbitSummary {
   std::optional<OsculatingElements> mean_elements;
   double mean_anomaly_deg = 0;
   double mean_truncation = 0;
-  /// J2 R^2/a, several times of which zonal coefficients move heights by; none without J2.
+  /// J2 R^2/a, several times of which zonal coefficients move heights by; absent without J2.
   std::optional<double> perturbation_km;
   /// Of the scene, or of the equator of the body whose mu the scene has.
   std::optional<double> surface_km;

@@ -7,6 +7,7 @@
 #include "../../text/scene_message.hpp"
 #include "../scene_sections.hpp"
 #include "../systems/scene_earth.hpp"
+#include "hamjet/astronomy/earth_axes.hpp"
 #include "scene_elements.hpp"
 #include "scene_manoeuvres.hpp"
 
@@ -88,6 +89,12 @@ Orbit read_orbit(const TableReader& table, const SceneCentre& centre) {
   if (cartesian) {
     orbit.state = read_position_and_velocity(table);
   } else if (element) {
+    if (centre.system.earth && axes_named(centre.system.earth->axes) == EarthAxes::itrf) {
+      table.fail(*element,
+                 "elements along axes that turn with the Earth, where no ellipse rests, got axes = "
+                 "\"ITRF\", must be position_km and velocity_km_s, or other axes: GCRF, EME2000, "
+                 "MOD or TOD");
+    }
     orbit.state = read_elements(table, centre);
   } else if (of_file) {
     NominalFromFile read = read_nominal_file(table, centre);

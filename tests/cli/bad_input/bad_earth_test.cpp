@@ -63,7 +63,11 @@ TEST_F(BadEarth, Axes) {
       {{epoch,
         epoch + "axes = \"ECEF\"\n",
         {"bad.toml:7:8: nominal.axes: unknown value, got \"ECEF\", must be one of: GCRF, EME2000"}},
-       {epoch, epoch + "axes = 3\n", {"bad.toml:7:8: nominal.axes: wrong type, got 3"}}});
+       {epoch, epoch + "axes = 3\n", {"bad.toml:7:8: nominal.axes: wrong type, got 3"}},
+       {epoch,
+        epoch + "axes = \"ITRF\"\n",
+        {"bad.toml:8:13: nominal.height_km: elements along axes that turn with the Earth",
+         "must be position_km and velocity_km_s, or other axes: GCRF"}}});
 }
 
 TEST_F(BadEarth, Epochs) {
