@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "../integrators/concurrent_tasks.hpp"
+#include "../maps/evaluation_error.hpp"
 #include "../studies/checks/flight_checks.hpp"
 #include "../studies/exact_flow.hpp"
 #include "../studies/formation/charts/deputy_flows.hpp"
@@ -29,19 +30,32 @@ void set_rounding(EvaluatedScene& scene, const SixNumbers<double>& start, double
                      scene.chief.units.length_km * 1000;
 }
 
-/// The flow to the third degree; none if it cannot be integrated to that.
-std::shared_ptr<const DeputyFlow> flow_of_third_degree(const Scene& scene,
-                                                       const IntegratorSettings& integrator,
-                                                       const CoordinatesAtEnds& coordinates) {
+/// The end of a flow box's section as it is stored; empty in other coordinates.
+std::vector<double> stored_end_of(const DeputyFlowPropagation& propagation) {
+  const auto& box = propagation.flow_box();
+  if (!box) return {};
+  return {box->end->origin().begin(), box->end->origin().end()};
+}
+
+/// The highest order whose estimate has the next degree, which takes up to twice the time of all
+/// others. Of higher orders, degrees enough tell how they decay.
+constexpr int highest_with_next_degree = 4;
+
+/// The flow to one degree more than the scene's; none if it cannot be integrated to that.
+FurtherFlow flow_of_next_degree(const Scene& scene, const IntegratorSettings& integrator,
+                                const CoordinatesAtEnds& coordinates) {
   Scene further = scene;
-  further.order = 3;
+  ++further.order;
   try {
     const ComputedProblem problem = make_problem(further);
-    return DeputyFlowPropagation(further, problem, integrator, coordinates)
-        .advance_to(scene.duration);
+    DeputyFlowPropagation propagation(further, problem, integrator, coordinates);
+    FurtherFlow result;
+    result.flow = propagation.advance_to(scene.duration);
+    result.stored_end = stored_end_of(propagation);
+    return result;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::numerical) throw;
-    return nullptr;
+    return {};
   }
 }
 
@@ -68,13 +82,14 @@ void integrate_flow(const Scene& scene, const ComputedProblem& problem, Evaluate
     // The flow is there all the same; nothing is known of its errors then, which is said.
     if (error.kind() != ErrorKind::numerical) throw;
   }
-  if (scene.order == 2 && result.coordinates != JetCoordinates::cartesian) {
-    result.further = flow_of_third_degree(scene, integrator, propagation.coordinates());
+  if (scene.order >= 2 && scene.order <= highest_with_next_degree &&
+      result.coordinates != JetCoordinates::cartesian) {
+    result.further = flow_of_next_degree(scene, integrator, propagation.coordinates());
   }
   if (const auto& box = propagation.flow_box()) {
     result.chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
-    result.stored_end.assign(box->end->origin().begin(), box->end->origin().end());
   }
+  result.stored_end = stored_end_of(propagation);
 }
 
 }  // namespace
@@ -231,9 +246,9 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
   const auto predictions = std::span(worker.predictions).subspan(start);
   worker.predictor.predict(initial, degree_, predictions);
   worker.estimates.resize(start + initial.size());
-  std::vector<DeputyPrediction> third(worker.further ? initial.size() : 0);
-  if (worker.further) worker.further->predict(initial, 3, third);
-  const auto third_of = [&](std::size_t k) { return third.empty() ? nullptr : &third[k]; };
+  std::vector<DeputyPrediction> next(worker.further ? initial.size() : 0);
+  if (worker.further) worker.further->predict(initial, degree_ + 1, next);
+  const auto next_of = [&](std::size_t k) { return next.empty() ? nullptr : &next[k]; };
   std::vector<std::size_t> bent;
   for (std::size_t k = 0; k < initial.size(); ++k) {
     const DeputyPrediction& found = predictions[k];
@@ -249,7 +264,7 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
         lower[h] = h == 0 ? found.deviation : lower[h - 1];
         for (std::size_t i = 0; i < 6; ++i) lower[h][i] -= found.highest[h][i];
       }
-      told = curved_estimate(initial[k], found.deviation, lower, third_of(k));
+      told = curved_estimate(initial[k], found.deviation, lower, next_of(k));
     }
   }
   std::vector<std::array<SixNumbers<double>, 3>> lower(bent.size());
@@ -257,7 +272,7 @@ void DeputyEvaluation::predict(std::span<const SixNumbers<double>> initial, Work
   for (std::size_t j = 0; j < bent.size(); ++j) {
     const std::size_t k = bent[j];
     worker.estimates[start + k] =
-        curved_estimate(initial[k], predictions[k].deviation, lower[j], third_of(k));
+        curved_estimate(initial[k], predictions[k].deviation, lower[j], next_of(k));
   }
 }
 
@@ -329,6 +344,29 @@ MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) cons
   return {truncation.support, truncation.miss, 0};
 }
 
+namespace {
+
+/// Floors of flights are cautious. Beside closed forms, errors of a thousand random deputies that
+/// rounding limits were a third of them in the median, and once in a hundred a fortieth or 1.2
+/// times.
+constexpr double rounding_margin = 3;
+
+}  // namespace
+
+double DeputyEvaluation::uncancelled(const SixNumbers<double>& initial) const {
+  const auto& jet = scene_.flow->polynomials();
+  const SeriesSpace& space = jet[0].space();
+  double squares = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (std::size_t v = 0; v < initial.size(); ++v) {
+      sum += std::abs(jet[i][space.linear_index(v)] * initial[v]);
+    }
+    squares += sum * sum;
+  }
+  return std::sqrt(squares);
+}
+
 double DeputyEvaluation::chief_error() const {
   const double length_m = scene_.chief.units.length_km * 1000;
   return std::max(scene_.error.of_chief(), scene_.rounding_m / length_m);
@@ -338,9 +376,14 @@ void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
                                   const SixNumbers<double>& found, MissEstimate& told) const {
   const auto speed = [](const SixNumbers<double>& z) { return std::hypot(z[3], z[4], z[5]); };
   const double length_m = scene_.chief.units.length_km * 1000;
-  told.rounding_m = scene_.rounding_m;
   told.integration_m = scene_.error.of_deviation(initial) * length_m;
-  if (scene_.coordinates == JetCoordinates::cartesian) return;
+  if (scene_.coordinates == JetCoordinates::cartesian) {
+    // Nothing is rounded but numbers of the deviation's own size.
+    told.rounding_m = evaluation_rounding(scene_.flow->polynomials()[0].space(), degree_) *
+                      uncancelled(initial) * length_m;
+    return;
+  }
+  told.rounding_m = scene_.rounding_m / rounding_margin;
   const SixNumbers<double>& chief = scene_.flow->chief_end();
   SixNumbers<double> deputy = chief;
   for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += found[i];
@@ -352,17 +395,15 @@ void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
 }
 
 const DeputyFlow* DeputyEvaluation::further_flow() const {
-  if (degree_ != 2 || scene_.coordinates == JetCoordinates::cartesian) return nullptr;
-  return scene_.flow->order() > 2 ? scene_.flow.get() : scene_.further.get();
+  if (degree_ < 2 || scene_.coordinates == JetCoordinates::cartesian) return nullptr;
+  return scene_.flow->order() > degree_ ? scene_.flow.get() : scene_.further.flow.get();
 }
 
 MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
                                                const SixNumbers<double>& found,
                                                const std::array<SixNumbers<double>, 3>& lower,
-                                               const DeputyPrediction* third) const {
+                                               const DeputyPrediction* next) const {
   using Support = TruncationEstimate::Support;
-  constexpr double least_decay = 0.5;  // of the changes of two degrees that is relied upon
-  constexpr double largest_decay = 2;
   const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   };
@@ -373,15 +414,8 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
   const double change = distance(found, lower[0]);
   if (!std::isfinite(change) || !std::isfinite(scene_.rounding_m)) return result;
   const double size = std::max(distance(initial, none), distance(found, none));
-  double missing = change;
   bool is_decaying = false;
-  const double next = third ? distance(third->deviation, found) : change;
-  if (degree_ == 2 && next < change) {
-    // What is left goes on as degree 3 does, or as degree 2 did: the third may vanish by chance.
-    const double decay = change / size;
-    missing = std::max(next / (1 - std::min(next / change, least_decay)), change * decay * decay);
-    missing = std::min(missing, change);
-  }
+  double left = 1;  // of what the highest degree changes
   if (degree_ >= 3) {
     const double before = distance(lower[0], lower[1]);
     const double two_before = distance(lower[1], lower[2]);
@@ -392,14 +426,37 @@ MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial
     // The lowest degrees may leave a deputy where the coordinates of the end are none.
     const double all = std::isfinite(two_before) ? decay_of_degrees(2, two_before, before, change)
                                                  : decay_of_degrees(1, before, before, change);
+    constexpr double largest_decay = 2;
     const double decay = std::min(all, is_decaying ? 1.0 : largest_decay);
-    missing = std::max(change * std::max(decay, least_decay), before * decay * decay);
+    // Degrees that bend little may fall off faster at first than they go on.
+    constexpr double least_decay = 0.02;
+    left = std::max({decay, least_decay, change > 0 ? before / change * decay * decay : 0});
+  }
+  if (change > 0 && next) {
+    // What is left goes on as the next degree does, which may vanish by chance, and then as those
+    // before it.
+    const double further = distance(next->deviation, found) / change;
+    const double decay = degree_ == 2 ? change / size : left;
+    // Where it changes far more, coefficients are no more than rounding, or the series diverges.
+    constexpr double most = 10;
+    if (std::isfinite(further)) {
+      left =
+          std::clamp(further / (1 - std::min(further, 0.5)), std::min(decay * decay, most), most);
+    }
+  } else if (change > 0 && degree_ == 2) {
+    // Coordinates that bend as the flow does leave degree 2 little of a deviation, and degree 3 as
+    // much less of that as deputies are near. Results state their coefficients' errors.
+    constexpr double margin = 2;
+    const double nearness = size / distance(scene_.flow->chief_end(), none);
+    const std::vector<double>& errors = scene_.chief.error_by_degree;
+    left = margin * std::max({change / size, nearness, errors.size() > 2 ? errors[2] : 1.0});
+    left = std::min(left, 1.0);
   }
   // Of the deviation that a degree may change. Degrees that are small already need not decay one by
   // one, for the lower may vanish by chance; less is relied upon then.
   const double largest_share = is_decaying ? 0.1 : 1e-4;
   result.support = change <= largest_share * size ? Support::inside : Support::outside;
-  result.truncation_m = missing * scene_.chief.units.length_km * 1000;
+  result.truncation_m = change * left * scene_.chief.units.length_km * 1000;
   return result;
 }
 

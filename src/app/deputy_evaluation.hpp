@@ -18,6 +18,12 @@
 
 namespace hamjet::cli {
 
+/// A flow to one degree more than another; null if there is none.
+struct FurtherFlow {
+  std::shared_ptr<const DeputyFlow> flow;
+  std::vector<double> stored_end;  ///< see EvaluatedScene
+};
+
 /// A scene's polynomials in its coordinates over its duration, integrated when asked for.
 struct EvaluatedScene {
   /// The chief, as the results of a run have it; without coefficients.
@@ -25,9 +31,9 @@ struct EvaluatedScene {
   CanonicalFactors told;          ///< see told_factors
   ChosenCoordinates coordinates;  ///< not automatic
   std::shared_ptr<const DeputyFlow> flow;
-  /// The flow to the third degree, from which the estimate knows what degree 2 leaves out; only for
-  /// order 2 in curved coordinates, and not for a stored jet.
-  std::shared_ptr<const DeputyFlow> further;
+  /// The flow to one degree more, from which the estimate knows what the highest degree leaves out;
+  /// only for orders 2 to 4 in curved coordinates, and not for a stored jet.
+  FurtherFlow further;
   /// The chief's final state as a jet is stored with it. Of flow boxes the section at the end goes
   /// through it, and deviations are counted from what it is in the section's chart and back.
   std::vector<double> stored_end;
@@ -110,6 +116,9 @@ class DeputyEvaluation {
   /// The estimate for polynomials in positions and momenta, whose degrees add up: see
   /// estimate_truncation.
   MissEstimate estimate(const DeputyPrediction& prediction) const;
+  /// The size of a final position of the first degree, if the parts that the numbers of the
+  /// deviation make did not cancel.
+  double uncancelled(const SixNumbers<double>& initial) const;
   /// Adds what flights and integrations are wrong by. In curved coordinates a deputy is told about
   /// the chief's end, so that it comes too late or too early as the chief does, at a speed of its
   /// own.
@@ -120,19 +129,20 @@ class DeputyEvaluation {
   /// curved ends themselves.
   bool is_nearly_straight(const SixNumbers<double>& initial, const DeputyPrediction& found) const;
   /// In other coordinates, of deviations at the start and, by the highest degree N and by one to
-  /// three less, at the end: c_k being what degree k changes, degree N + 1 is taken to change
+  /// three less, at the end. Where there are predictions by degree N + 1, `next`, it is what they
+  /// change, with what the same decay adds. Else, c_k being what degree k changes, it is
   ///
-  ///   max( c_N max(q, 1/2), c_(N-1) q^2 ) ,
+  ///   max( c_N q, c_(N-1) q^2 ) ,
   ///
-  /// q the decay of c_(N-2) to c_N, at most 1, or 2 where c_N is above c_(N-1). Order 2 has no such
-  /// decay: it states `third`, the predictions by degree 3, with what their decay adds, and where
-  /// there are none c_2 itself; order 1 is unknown. Outside where c_N is more than a tenth of the
-  /// deviation; where changes do not fall, and of order 2, where it is more than 1e-4 of it.
+  /// q the decay of c_(N-2) to c_N, at least 0.02 and at most 1, or 2 where c_N is above c_(N-1).
+  /// Order 2 has no such decay: it states twice c_2 times the largest of its share of the
+  /// deviation, the deviation's share of the chief's distance, and the error of its coefficients;
+  /// order 1 is unknown. Outside where c_N is more than a tenth of the deviation; where changes do
+  /// not fall, and of order 2, where it is more than 1e-4 of it.
   MissEstimate curved_estimate(const SixNumbers<double>& initial, const SixNumbers<double>& found,
                                const std::array<SixNumbers<double>, 3>& lower,
-                               const DeputyPrediction* third) const;
-  /// The flow by which predictions of degree 2 in curved coordinates are compared with those of
-  /// degree 3; null where there is none.
+                               const DeputyPrediction* next) const;
+  /// The flow that predicts by one degree more in curved coordinates; null where there is none.
   const DeputyFlow* further_flow() const;
 
   const EvaluatedScene& scene_;

@@ -14,7 +14,6 @@
 #include "hamjet/algebra/composition.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/error_estimate.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 
 namespace hamjet::cli {
@@ -58,18 +57,38 @@ std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
                             start, coordinates);
 }
 
-/// The length of rows times x. It is summed in one order, column by column, whatever the compiler
-/// makes of small matrices, so that its digits stay.
-double length_of_product(const Eigen::Matrix<double, 3, 6>& rows, const SixNumbers<double>& x) {
-  double sums[3] = {0, 0, 0};
-  for (Eigen::Index j = 0; j < 6; ++j) {
-    for (Eigen::Index i = 0; i < 3; ++i) sums[i] += rows(i, j) * x[static_cast<std::size_t>(j)];
+/// A matrix of up to six rows times x. It is summed in one order, column by column, whatever the
+/// compiler makes of small matrices, so that its digits stay.
+template <class Rows>
+SixNumbers<double> product(const Rows& rows, const SixNumbers<double>& x) {
+  SixNumbers<double> sums{};
+  for (Eigen::Index j = 0; j < rows.cols(); ++j) {
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      sums[static_cast<std::size_t>(i)] += rows(i, j) * x[static_cast<std::size_t>(j)];
+    }
   }
-  return std::sqrt(sums[0] * sums[0] + sums[1] * sums[1] + sums[2] * sums[2]);
+  return sums;
+}
+
+double length(const SixNumbers<double>& x) {
+  return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
 }
 
 double distance(const SixNumbers<double>& a, const SixNumbers<double>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// The errors of coefficients whose largest has the error 1, as evaluation_error spreads them.
+Matrix<double> spread_error(const Matrix<double>& values) {
+  return (values.cwiseAbs().maxCoeff() * values.cwiseAbs()).cwiseSqrt();
+}
+
+/// The geometric mean of what two independent runs show: one that is far larger than the other has
+/// errors of its own.
+double of_both(const std::vector<double>& shown) {
+  double logarithm = 0;
+  for (const double x : shown) logarithm += std::log(x) / static_cast<double>(shown.size());
+  return std::exp(logarithm);
 }
 
 /// The largest of positions q and of momenta p, these in units of 2^exponent.
@@ -87,15 +106,16 @@ FlowError FlowError::measured(const Scene& scene, const ComputedProblem& problem
   FlowError result;
   result.is_known_ = true;
   const Matrix<double> values = linear_values(flow);
+  std::vector<double> of_chief;
   for (std::size_t number = 0; number < stages_of_runs.size(); ++number) {
     const auto other = independent_linear_flow(scene, problem, coordinates, number);
-    raise_to(result.of_chief_,
-             error_estimate_safety * distance(other->chief_end(), flow.chief_end()));
-    const Matrix<double> error = error_estimate_safety * (values - linear_values(*other));
+    of_chief.push_back(distance(other->chief_end(), flow.chief_end()));
+    const Matrix<double> error = values - linear_values(*other);
     const Matrix<double> shown =
         flow.exit_derivative().topRows(positions) * error * flow.entry_derivative();
     result.shown_.push_back(shown);
   }
+  result.of_chief_ = of_both(of_chief);
   return result;
 }
 
@@ -113,63 +133,77 @@ FlowError FlowError::stated(const io::StoredJet& stored, const DeputyFlow& flow)
       return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
                                                static_cast<Eigen::Index>(numbers.size()));
     };
-    // In the chief's own units the error of each coefficient is that part of the largest.
     const Matrix<double> unit =
         column(units.values) * column(units.variables).cwiseInverse().transpose();
-    const Matrix<double> error = relative * values.cwiseQuotient(unit).cwiseAbs().maxCoeff() * unit;
-    const Matrix<double> bound = flow.exit_derivative().topRows(positions).cwiseAbs() * error *
-                                 flow.entry_derivative().cwiseAbs();
+    const Matrix<double> error =
+        relative * spread_error(values.cwiseQuotient(unit)).cwiseProduct(unit);
+    // A flow box has fewer variables than six; the others count nothing.
+    Bound bound;
+    bound.rows.leftCols(error.cols()) =
+        flow.exit_derivative().topRows(positions).cwiseAbs() * error;
+    bound.entry.setZero();
+    bound.entry.topRows(error.cols()) = flow.entry_derivative();
     result.bound_ = bound;
     return result;
   }
   // Of other coordinates it is the error of the jet in positions and momenta.
   const int exponent = stored.momentum_exponent();
   const Matrix<double> linear = flow.exit_derivative() * values * flow.entry_derivative();
-  const double largest = in_momentum_unit<Matrix<double>>(linear, exponent).cwiseAbs().maxCoeff();
-  result.bound_ = PositionRows::Constant(relative * largest);
-  result.bound_->rightCols(positions) *= std::ldexp(1.0, -exponent);
+  Bound bound;
+  bound.rows = relative *
+               spread_error(in_momentum_unit<Matrix<double>>(linear, exponent)).topRows(positions);
+  bound.rows.rightCols(positions) *= std::ldexp(1.0, -exponent);
+  result.bound_ = bound;
   return result;
 }
 
 std::vector<double> FlowError::numbers() const {
   std::vector<double> result = {is_known_ ? 1.0 : 0.0, of_chief_, bound_ ? 1.0 : 0.0};
-  const auto add = [&](const PositionRows& rows) {
-    result.insert(result.end(), rows.data(), rows.data() + rows.size());
+  const auto add = [&](const auto& matrix) {
+    result.insert(result.end(), matrix.data(), matrix.data() + matrix.size());
   };
-  if (bound_) add(*bound_);
+  if (bound_) {
+    add(bound_->rows);
+    add(bound_->entry);
+  }
   for (const PositionRows& rows : shown_) add(rows);
   return result;
 }
 
 FlowError FlowError::of_numbers(std::span<const double> numbers) {
+  constexpr const char* not_these = "flow error: these numbers are none";
   constexpr std::size_t head = 3;
   constexpr std::size_t size = PositionRows::SizeAtCompileTime;
   if (numbers.size() < head || (numbers.size() - head) % size != 0) {
-    throw Error(ErrorKind::usage, "flow error: these numbers are none");
+    throw Error(ErrorKind::usage, not_these);
   }
   FlowError result;
   result.is_known_ = numbers[0] != 0;
   result.of_chief_ = numbers[1];
-  bool is_bound = numbers[2] != 0;
-  for (std::size_t at = head; at < numbers.size(); at += size) {
-    const PositionRows rows(numbers.data() + at);
-    if (is_bound) {
-      result.bound_ = rows;
-    } else {
-      result.shown_.push_back(rows);
-    }
-    is_bound = false;
+  std::size_t at = head;
+  if (numbers[2] != 0) {
+    // Six rows are as many numbers as twice three.
+    if (numbers.size() < head + 3 * size) throw Error(ErrorKind::usage, not_these);
+    result.bound_ = Bound{PositionRows(numbers.data() + at), Entry(numbers.data() + at + size)};
+    at += 3 * size;
   }
+  for (; at < numbers.size(); at += size) result.shown_.emplace_back(numbers.data() + at);
   return result;
 }
 
 double FlowError::of_deviation(const SixNumbers<double>& deviation) const {
   double error = 0;
-  for (const PositionRows& rows : shown_) raise_to(error, length_of_product(rows, deviation));
+  if (!shown_.empty()) {
+    std::vector<double> lengths;
+    for (const PositionRows& rows : shown_) lengths.push_back(length(product(rows, deviation)));
+    error = of_both(lengths);
+  }
   if (bound_) {
-    SixNumbers<double> magnitudes = deviation;
-    for (double& x : magnitudes) x = std::abs(x);
-    raise_to(error, length_of_product(*bound_, magnitudes));
+    const SixNumbers<double> entered = product(bound_->entry, deviation);
+    SixNumbers<double> magnitudes;
+    for (std::size_t i = 0; i < 6; ++i) magnitudes[i] = std::abs(entered[i]);
+    const SixNumbers<double> end = product(bound_->rows, magnitudes);
+    raise_to(error, length(end));
   }
   return error;
 }

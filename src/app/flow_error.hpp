@@ -21,11 +21,12 @@ class FlowError {
   /// Nothing is known, and nothing counted.
   FlowError() = default;
 
-  /// What two independent integrations of the linear part show (gauss_of_independent_run). Throws
-  /// as the integrator and the coordinates.
+  /// What two independent integrations of the linear part show (gauss_of_independent_run), as
+  /// geometric means. Throws as the integrator and the coordinates.
   static FlowError measured(const Scene& scene, const ComputedProblem& problem,
                             const CoordinatesAtEnds& coordinates, const DeputyFlow& flow);
-  /// What results state of their coefficients by degree, as a bound; nothing where they do not.
+  /// What results state of their coefficients by degree, spread as evaluation_error does; nothing
+  /// where they do not.
   static FlowError stated(const io::StoredJet& stored, const DeputyFlow& flow);
 
   /// All numbers that this object holds; the constructor below makes an equal object of them.
@@ -39,13 +40,20 @@ class FlowError {
   double of_deviation(const SixNumbers<double>& deviation) const;
 
  private:
-  /// The derivatives of a position by the six numbers of a deviation.
+  /// The derivatives of a position by six numbers.
   using PositionRows = Eigen::Matrix<double, 3, 6>;
+  using Entry = Eigen::Matrix<double, 6, 6>;
+  /// Errors of positions by the magnitudes of a flow's variables, and the derivatives of these by
+  /// the numbers of a deviation.
+  struct Bound {
+    PositionRows rows = PositionRows::Zero();
+    Entry entry = Entry::Identity();
+  };
 
   bool is_known_ = false;
   double of_chief_ = 0;
-  std::vector<PositionRows> shown_;    ///< times a deviation: the error of its end
-  std::optional<PositionRows> bound_;  ///< times a deviation's magnitudes: a bound on it
+  std::vector<PositionRows> shown_;  ///< times a deviation: the error of its end
+  std::optional<Bound> bound_;
 };
 
 /// A bound on the error of a stored chief's final position, from the error of degree 0 that the

@@ -21,6 +21,8 @@ constexpr double largest_distortion = 30;
 /// If known lines show more than this many times the error of a separate run, either they are not
 /// finer than the jet, or the run has missed the error.
 constexpr double largest_disagreement = 10;
+/// They raise the error of the run by no more than this: their own error is not known as well.
+constexpr double largest_raise = 2;
 
 /// The directions of known lines, in the estimate's unit of momentum. The list is empty unless the
 /// degrees of the jet are about as large along each line as their largest coefficients.
@@ -46,10 +48,21 @@ std::vector<Direction<Real>> known_directions(const FlowProblem<Real>& problem,
   return result;
 }
 
+/// What is below rounding confirms nothing and contradicts nothing.
+template <class Real>
 bool is_confirmed(const std::vector<double>& own, const std::vector<double>& known) {
   return std::equal(own.begin(), own.end(), known.begin(), [](double of_own, double of_known) {
-    return of_known <= largest_disagreement * of_own;
+    return of_known <= largest_disagreement * std::max(of_own, rounding_unit<Real>());
   });
+}
+
+/// Leaves of the differences to a first run what a second one lets be the jet's own error.
+template <class Real>
+void take_own_part(std::vector<double>& differences, std::span<const Direction<Real>> directions,
+                   const std::vector<FlowJet<Real>>& first,
+                   const std::vector<FlowJet<Real>>& second) {
+  const std::vector<double> parts = own_parts<Real>(directions, first, second);
+  for (std::size_t d = 0; d < parts.size(); ++d) differences[d] *= parts[d];
 }
 
 template <class Real>
@@ -74,8 +87,7 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   require_jet_of(problem, delivered);
   validate_lines(problem, known);
   const auto degrees = static_cast<std::size_t>(problem.space->order()) + 1;
-  std::vector<double> result(degrees, 0);
-  if (problem.duration == 0) return result;
+  if (problem.duration == 0) return std::vector<double>(degrees, 0);
   const int exponent = settings.momentum_exponent;
   const SpacePointer line = SeriesSpace::create(1, problem.space->order());
   const FlowJet<Real> jet = compared_components(delivered, problem.variables,
@@ -84,25 +96,24 @@ std::vector<double> estimate_error(const FlowProblem<Real>& problem, const FlowJ
   const Directions<Real> drawn = choose_directions(jet, line, largest, directions_of_runs[0]);
   // Steps that were chosen along the known lines are also judged along other lines.
   const auto first = run_along<Real>(problem, drawn, 0, settings);
-  include_lines<Real>(result, drawn, first, largest);
+  std::vector<double> result = mean_line_differences<Real>(drawn, first, largest);
   const auto taken = known_directions(problem, known, exponent, jet, line, largest);
-  if (!taken.empty()) {
-    std::vector<double> shown(degrees, 0);
-    for (std::size_t k = 0; k < taken.size(); ++k) {
-      const FlowJet<Real> run = compared_components(known[k].jet, variable_of_line,
-                                                    problem.system->degrees_of_freedom, exponent);
-      include_known(shown, taken[k], run, largest);
-      include_nominals(shown, first[0], run, largest[0]);
-    }
-    if (is_confirmed(result, shown)) {
-      for (std::size_t d = 0; d < degrees; ++d) result[d] = std::max(result[d], shown[d]);
-      return result;
-    }
+  std::vector<double> shown(degrees, 0);
+  for (std::size_t k = 0; k < taken.size(); ++k) {
+    const FlowJet<Real> run = compared_components(known[k].jet, variable_of_line,
+                                                  problem.system->degrees_of_freedom, exponent);
+    include_known(shown, taken[k], run, largest);
   }
-  const auto directions = directions_of_run<Real>(drawn, 1);
-  const auto second = run_along<Real>(problem, directions, 1, settings);
-  include_lines<Real>(result, directions, second, largest);
-  include_nominals(result, first[0], second[0], largest[0]);
+  if (!taken.empty() && is_confirmed<Real>(result, shown)) {
+    for (std::size_t d = 0; d < degrees; ++d) {
+      raise_to(result[d], std::min(shown[d], largest_raise * result[d]));
+    }
+  } else {
+    const auto directions = directions_of_run<Real>(drawn, 1);
+    const auto second = run_along<Real>(problem, directions, 1, settings);
+    take_own_part<Real>(result, directions, first, second);
+  }
+  raise_to_rounding(result, first, largest);
   return result;
 }
 
@@ -128,26 +139,29 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
         compared_components(jet, problem.variables, problem.system->degrees_of_freedom, exponent));
     largest.push_back(largest_by_degree(jets.back()));
   }
-  std::vector<FlowJet<Real>> first(
-      times.size());  // series of the first run along its first direction
   const Directions<Real> drawn =
       choose_directions(jets.back(), line, largest.back(), directions_of_runs[0]);
+  std::vector<std::vector<FlowJet<Real>>> first;  // lines of the first run at each time
   for (std::size_t number = 0; number < stages_of_runs.size(); ++number) {
     const auto directions = directions_of_run<Real>(drawn, number);
     const JetTrajectory<Real> along(problem_along<Real>(problem, directions, exponent),
                                     settings_of_run<Real>(number, settings), 256e6,
                                     observer_of_run<Real>(problem.duration, number, settings));
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const auto lines =
+      auto lines =
           lines_of_run<Real>(along.at(times[i]), problem.system->degrees_of_freedom, settings);
       Directions<Real> at_time;
       for (const Direction<Real>& direction : directions) {
         at_time.push_back({direction.entries, restrict_to_line(jets[i], direction.entries, line),
                            sizes_along(jets[i], direction.entries, line)});
       }
-      include_lines<Real>(result[i], at_time, lines, largest[i]);
-      if (number > 0) include_nominals(result[i], first[i], lines[0], largest[i][0]);
-      first[i] = lines[0];
+      if (number == 0) {
+        result[i] = mean_line_differences<Real>(at_time, lines, largest[i]);
+        first.push_back(std::move(lines));
+      } else {
+        take_own_part<Real>(result[i], at_time, first[i], lines);
+        raise_to_rounding(result[i], first[i], largest[i]);
+      }
     }
   }
   return result;

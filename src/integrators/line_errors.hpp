@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "../algebra/raise_to.hpp"
-#include "hamjet/integrators/error_estimate.hpp"
 #include "jet_directions.hpp"
 
 // The error of a jet, degree by degree, that independent runs along lines show.
@@ -42,17 +41,31 @@ void include_known(std::vector<double>& result, const Direction<Real>& direction
   const std::vector<double> along = largest_by_degree(run);
   for (std::size_t d = 0; d < result.size(); ++d) {
     const double scale = along[d] > 0 ? along[d] : largest[d];
-    if (scale == 0) continue;
-    raise_to(result[d], std::max(rounding_unit<Real>(), error_estimate_safety * shown[d] / scale));
+    if (scale > 0) raise_to(result[d], shown[d] / scale);
   }
 }
 
-/// All runs share the nominal, so that a difference in the nominal is an error too.
+/// By degree, the part of the differences between a jet and a first run that is the jet's own. Where
+/// a second run is closer to the jet along the directions that both runs have, the rest is the error
+/// of the first: two independent integrations seldom agree by chance.
 template <class Real>
-void include_nominals(std::vector<double>& result, const FlowJet<Real>& a, const FlowJet<Real>& b,
-                      double largest) {
-  if (largest == 0) return;
-  raise_to(result[0], error_estimate_safety * line_differences(a, b)[0] / largest);
+std::vector<double> own_parts(std::span<const Direction<Real>> directions,
+                              const std::vector<FlowJet<Real>>& first,
+                              const std::vector<FlowJet<Real>>& second) {
+  const auto differences = [&](const std::vector<FlowJet<Real>>& lines) {
+    std::vector<double> sum(lines.front()[0].size(), 0);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      const std::vector<double> one = line_differences(directions[k].jet, lines[k]);
+      for (std::size_t d = 0; d < sum.size(); ++d) sum[d] = std::hypot(sum[d], one[d]);
+    }
+    return sum;
+  };
+  std::vector<double> parts = differences(second);
+  const std::vector<double> to_first = differences(first);
+  for (std::size_t d = 0; d < parts.size(); ++d) {
+    parts[d] = parts[d] < to_first[d] ? parts[d] / to_first[d] : 1;
+  }
+  return parts;
 }
 
 /// By degree, the differences between a jet and lines along its directions, as root mean squares
@@ -89,16 +102,14 @@ std::vector<double> mean_line_differences(std::span<const Direction<Real>> direc
   return error;
 }
 
-/// By degree, the larger of `result` and the error that a run shows along its directions.
+/// Raises the errors of all degrees that the jet or its lines have to the rounding of the numbers.
 template <class Real>
-void include_lines(std::vector<double>& result, std::span<const Direction<Real>> directions,
-                   const std::vector<FlowJet<Real>>& lines, const std::vector<double>& largest) {
-  const std::vector<double> shown = mean_line_differences<Real>(directions, lines, largest);
-  for (std::size_t d = 0; d < result.size(); ++d) {
+void raise_to_rounding(std::vector<double>& errors, const std::vector<FlowJet<Real>>& lines,
+                       const std::vector<double>& largest) {
+  for (std::size_t d = 0; d < errors.size(); ++d) {
     bool is_empty = largest[d] == 0;
     for (const FlowJet<Real>& line : lines) is_empty = is_empty && largest_by_degree(line)[d] == 0;
-    if (is_empty) continue;
-    raise_to(result[d], std::max(rounding_unit<Real>(), error_estimate_safety * shown[d]));
+    if (!is_empty) raise_to(errors[d], rounding_unit<Real>());
   }
 }
 

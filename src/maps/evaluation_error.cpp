@@ -29,15 +29,19 @@ double largest_coefficient_of(const std::vector<Series<double>>& map, int degree
 
 }  // namespace
 
+double evaluation_rounding(const SeriesSpace& space, int degree) {
+  const double roundings =
+      1 + conversion_roundings +
+      std::sqrt(static_cast<double>(space.first(degree + 1)) + static_cast<double>(degree));
+  return roundings * half_ulp;
+}
+
 std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& map, int degree,
                                              std::span<const double> error_by_degree) {
   if (map.empty() || degree < 1 || degree > map[0].order()) {
     throw Error(ErrorKind::usage, "evaluation error: the degree must be 1 to the order of the map");
   }
   const SeriesSpace& space = map[0].space();
-  const double roundings =
-      1 + conversion_roundings +
-      std::sqrt(static_cast<double>(space.first(degree + 1)) + static_cast<double>(degree));
   const auto error_of = [&](int d) {
     const auto i = static_cast<std::size_t>(d);
     return i < error_by_degree.size() ? error_by_degree[i] : 0;
@@ -45,11 +49,12 @@ std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& 
   std::vector<Series<double>> result;
   for (const Series<double>& component : map) result.emplace_back(component.space_pointer());
   for (int d = 1; d <= degree; ++d) {
-    const double common = error_of(d) * largest_coefficient_of(map, d);
-    const double relative = roundings * half_ulp;
+    const double largest = largest_coefficient_of(map, d);
+    const double relative = evaluation_rounding(space, degree);
     for (std::size_t c = 0; c < map.size(); ++c) {
       for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
-        result[c][k] = relative * std::abs(map[c][k]) + common;
+        const double size = std::abs(map[c][k]);
+        result[c][k] = relative * size + error_of(d) * std::sqrt(largest * size);
       }
     }
   }

@@ -232,9 +232,13 @@ std::shared_ptr<Jet> restored_jet(const JetState& state, const py::object& coeff
   return std::make_shared<Jet>(std::move(stored));
 }
 
+/// The polynomials to one degree more, by which estimates are made.
+using NextDegree = std::pair<JetState, py::object>;
+
 PolynomialsStudy restored_polynomials(const JetState& state, const py::object& coefficients,
                                       double rounding_m, const std::vector<double>& error,
-                                      std::vector<double> chief_end) {
+                                      std::vector<double> chief_end,
+                                      const std::optional<NextDegree>& next) {
   const io::StoredJet stored = restored(state, coefficients);
   if (!is_orbit(stored.model) || stored.variables.size() != 6) refuse_state();
   cli::EvaluatedScene evaluated = cli::evaluated_jet(stored);
@@ -243,6 +247,11 @@ PolynomialsStudy restored_polynomials(const JetState& state, const py::object& c
   if (chief_end.size() != 6) refuse_state();
   if (chief_end != evaluated.chief.nominal_final)
     cli::set_chief_end(evaluated, std::move(chief_end));
+  if (next) {
+    const io::StoredJet further = restored(next->first, next->second);
+    if (further.order() != stored.order() + 1) refuse_state();
+    evaluated.further = {cli::evaluated_jet(further).flow, further.nominal_final};
+  }
   return PolynomialsStudy(std::move(evaluated));
 }
 
@@ -293,11 +302,19 @@ py::tuple reduced(const Jet& jet) {
 }
 
 py::tuple reduced(const PolynomialsStudy& study) {
-  const io::StoredJet stored = cli::stored_polynomials(study.evaluated());
-  return call_of(
-      "_restored_polynomials",
-      py::make_tuple(state_of(stored), coefficients_of(stored), study.evaluated().rounding_m,
-                     study.evaluated().error.numbers(), study.evaluated().chief.nominal_final));
+  const cli::EvaluatedScene& evaluated = study.evaluated();
+  const io::StoredJet stored = cli::stored_polynomials(evaluated);
+  std::optional<NextDegree> next;
+  if (evaluated.further.flow) {
+    cli::EvaluatedScene of_next = evaluated;
+    of_next.flow = evaluated.further.flow;
+    if (!evaluated.further.stored_end.empty()) of_next.stored_end = evaluated.further.stored_end;
+    const io::StoredJet further = cli::stored_polynomials(of_next);
+    next.emplace(state_of(further), coefficients_of(further));
+  }
+  return call_of("_restored_polynomials",
+                 py::make_tuple(state_of(stored), coefficients_of(stored), evaluated.rounding_m,
+                                evaluated.error.numbers(), evaluated.chief.nominal_final, next));
 }
 
 py::tuple reduced(const InvertedJet& function) {

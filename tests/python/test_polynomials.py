@@ -176,16 +176,23 @@ def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
     # Degree 2 alone that is small is a gap, over which the mean decay goes on.
     decay = np.where(below <= change * mean, mean, np.maximum(mean, change / below))
     decay = np.minimum(decay, np.where(change < below, 1, 2))
-    expected = np.maximum(change * np.maximum(decay, 0.5), below * decay ** 2)
+    decay = np.maximum(np.maximum(decay, 0.02), below / change * decay ** 2)
+    # Polynomials of a scene know the next degree, and what the decay from it on adds.
+    fourth = hamjet.polynomials(SCENE, coordinates=coordinates, overrides={"jet.order": 4})
+    added = fourth.evaluate_relative(states).states - third.states
+    share = np.linalg.norm(added[:, :3], axis=1) / change
+    further = np.maximum(share / (1 - np.minimum(share, 0.5)), decay ** 2)
+    expected = change * np.minimum(further, 10)
     inside = (third.support == "inside") & (expected > 1e-4)  # above rounding
     if size_m > 1e5:
         distances = np.linalg.norm(third.states[:, :3], axis=1)
         inside &= distances > 0.04 * 7000e3
     assert inside.sum() > (30 if coordinates == "flow-box" else 5)
     ratios = third.miss_m[inside] / expected[inside]
-    assert np.abs(ratios - 1).max() < tolerance
+    # Of places 7000 km away a double rounds 1e-9 m, which the curved ends make a hundred of.
+    assert (np.abs(ratios - 1) < tolerance + 1e-7 / expected[inside]).all()
     # For small deviations the two ways do not give the same numbers.
-    assert (np.abs(ratios - 1).max() > 1e-4) == (size_m < 1e5)
+    assert size_m > 1e5 or np.abs(ratios - 1).max() > 1e-4
 
 
 def test_deputies_beyond_reach_have_domains_of_their_own(tmp_path):

@@ -243,10 +243,11 @@ TEST(FlowBoxPolynomials, HaveTheErrorThatIsEstimated) {
       const std::vector<double> errors = relative_error_by_degree(charted.jet, values);
       ASSERT_EQ(estimates.size(), errors.size());
       for (std::size_t d = 0; d < errors.size(); ++d) {
-        // For comparison, the finer integrations are exact where the error is not rounding.
-        EXPECT_GE(estimates[d], errors[d]) << d;
+        // Of two draws of rounding the larger is seldom a tenth of the third.
+        EXPECT_GE(10 * estimates[d], errors[d]) << d;
         if (errors[d] <= 1e-9) continue;
-        EXPECT_NEAR(estimates[d] / errors[d], 2, 0.02) << d;
+        // The finer integrations are exact where the error is not rounding.
+        EXPECT_NEAR(estimates[d] / errors[d], 1, 0.01) << d;
       }
     }
     scene.checks[SelfCheckName::error_estimate].is_on = false;

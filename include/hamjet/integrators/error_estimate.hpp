@@ -8,9 +8,6 @@
 
 namespace hamjet {
 
-/// The safety factor of estimate_error: the estimate is this factor times the error that is seen.
-inline constexpr double error_estimate_safety = 2;
-
 /// How the error of a jet is estimated.
 struct ErrorEstimateSettings {
   /// Tolerance of the independent runs, for every degree; the default is four times the rounding of
@@ -37,30 +34,33 @@ struct ErrorEstimateSettings {
 /// integrated independently, side by side, with Gauss methods of 16 and of 15 stages, whose steps
 /// are chosen for all degrees. The jet's degree-d part along a direction minus the degree-d
 /// coefficient of the run is a sum of the errors of all monomials of this degree, with weights of
-/// order 1. For each run, the root mean square of these differences over its directions is divided
+/// order 1. The root mean square of the differences to the first run over its directions is divided
 /// by the geometric mean of the jet's largest coefficient and its size along the directions without
-/// cancellation, and multiplied by error_estimate_safety (by more where a run is smaller than the
-/// jet). The estimate is the larger of both, and at least the rounding of Real.
+/// cancellation (by less where the run is smaller than the jet). Where the second run is closer to
+/// the jet than the first along the directions that both have, the first has errors of its own, and
+/// the result is reduced by the ratio. The estimate is at least the rounding of Real.
 ///
 /// `known` may hold independent jets of this flow along lines, with other stages and finer steps
 /// than those of the given jet (IntegrationStatistics::finer_lines). They then replace the second
-/// run, with differences relative to the jet along the line. The second run is made all the same if
-/// they show ten times the error of the first run at some degree, or if a degree of the jet is
-/// thirty times larger or smaller along one of them than its largest coefficients.
+/// run, with differences relative to the jet along the line, which may double the estimate. The
+/// second run is made all the same if they show ten times the error of the first run at some
+/// degree, or if a degree of the jet is thirty times larger or smaller along one of them than its
+/// largest coefficients.
 ///
 /// Sixteen directions are drawn from a generator of constant seed. Their entries have random signs
 /// and magnitudes between sqrt(1/2) and sqrt(2), so that no monomial is lost. The eight directions
 /// are used along which the degrees of the jet are nearest in size to their largest coefficients,
 /// so that large monomials do not cancel.
 ///
-/// The estimate can be below the error, because a single direction may by chance show less than a
-/// tenth of it. Where rounding dominates, the error of the run is a sample of the same distribution
+/// The estimate is about the error, and no bound: it is as often below as above. Where rounding dominates, the error of the run is a sample of the same distribution
 /// as that of the jet; for normal distributions P(|e| > x |e - e'|) is about 0.32 / x. Where
 /// truncation over few steps dominates, the error of degree d is about (g.x)^d, where g is the
 /// deviation that a step resolves worst. On 530 ellipses, with orders 5 to 8 over parts of a
 /// revolution, the error was up to 290 times what the best two of sixteen directions show. Of 500
-/// random jets, 3018 degrees in all, the error was at most 8.5 times the estimate, and the estimate
-/// above ten times the error in 7 %. The tests measure this over hundreds of random scenes.
+/// random jets, 2951 degrees in all, the estimate was above ten times the error in 1.4 %, and the
+/// error above ten times the estimate in 0.3 %, which includes degrees that have no right digit;
+/// error over estimate was 0.6 in the median and above 4.8 in 1 %. The tests measure this over
+/// hundreds of random scenes.
 ///
 /// Returns zeros for a duration of zero, where the jet is exact. Throws Error(usage) if the jet or
 /// a known line does not fit the problem, Error(numerical) if the independent run fails,
@@ -87,7 +87,7 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
 /// coefficient is moved by up to half a unit in the last place of the largest position, or
 /// momentum, of its degree, so that all later roundings are drawn anew while the truncation stays.
 /// The result is the largest of the four root mean squares of the differences from the unmoved
-/// start, in the scale of the estimate but without its safety factor. Throws as estimate_error, and
+/// start, in the scale of the estimate. Throws as estimate_error, and
 /// what `integrate` throws.
 template <class Real>
 std::vector<double> sample_rounding(

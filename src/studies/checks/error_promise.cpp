@@ -6,7 +6,6 @@
 #include "../../integrators/momentum_unit.hpp"
 #include "../descriptions/method_description.hpp"
 #include "../largest_coefficient.hpp"
-#include "hamjet/integrators/error_estimate.hpp"
 
 namespace hamjet {
 namespace {
@@ -60,8 +59,7 @@ FlowJet<Extended> comparable_jet(const Scene& scene, const RunResult& run) {
 
 PromisedErrors promised_errors(const Scene& scene, const RunResult& run) {
   PromisedErrors promised;
-  promised.of_tolerance =
-      error_estimate_safety * 100 * *run.settings.tolerance * tolerance_count(run);
+  promised.of_tolerance = 100 * *run.settings.tolerance * tolerance_count(run);
   promised.total = half_ulp_changes(scene, run);
   const std::vector<double>& measured = run.statistics.rounding_by_degree;
   const double steps = static_cast<double>(run.statistics.steps);
@@ -71,8 +69,7 @@ PromisedErrors promised_errors(const Scene& scene, const RunResult& run) {
     promised.rounding.push_back(floor);
     // A degree with fewer than three digits is not accepted, even if rounding is the reason.
     promised.total[d] =
-        promised.of_tolerance +
-        error_estimate_safety * std::min(rounding_scatter * floor, largest_rounding);
+        promised.of_tolerance + std::min(rounding_scatter * floor, largest_rounding);
   }
   return promised;
 }

@@ -40,10 +40,10 @@ class Ratios {
   void add(double error, double estimate, double rounding, const std::string& what) {
     ratios_.push_back(error / estimate);
     const double excess = estimate / std::max(error, rounding);
-    const bool is_high = excess > 100;
-    high_ += excess > 10 ? 1 : 0;
+    const bool is_high = excess > 10;
+    high_ += is_high ? 1 : 0;
     rather_high_ += excess > 30 ? 1 : 0;
-    very_high_ += is_high ? 1 : 0;
+    very_high_ += excess > 100 ? 1 : 0;
     if (error > 5 * estimate) {
       fmt::print("{}: error {:.2e}, estimate {:.2e}, ratio {:.3g}\n", what, error, estimate,
                  error / estimate);
@@ -159,7 +159,7 @@ std::size_t add_floor(std::uint64_t seed, Ratios& ratios) {
   std::size_t count = 0;
   for (std::size_t d = 0; d < promised.rounding.size(); ++d) {
     const double estimate = (*run.error_estimate.by_degree)[d] - promised.of_tolerance;
-    const double floor = error_estimate_safety * promised.rounding[d];
+    const double floor = promised.rounding[d];
     if (!(floor > promised.of_tolerance)) continue;
     ratios.add(estimate, floor, 0, fmt::format("{}, degree {}", description(scene), d));
     ++count;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "studies/estimates/estimated_forces.hpp"
@@ -28,18 +29,22 @@ TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomScenes) {
   EXPECT_GT(judged, 20);
 }
 
-TEST(ErrorEstimate, IsNotFarBelowTheErrorOnRandomJets) {
+// Of hundreds of jets one degree in a hundred is told more than ten times too high.
+TEST(ErrorEstimate, IsOfTheSizeOfTheErrorOnRandomJets) {
   int judged = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  int high = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Scene scene = estimated_jet(seed);
-    if (scene.order > 6) continue;  // their closed form takes much time
+    if (scene.order > 5) continue;  // their closed form takes much time
     for (const JudgedDegree& one : judged_degrees_of_jet(scene)) {
       ++judged;
+      high += one.estimate > 10 * std::max(one.error, rounding_of(scene.precision)) ? 1 : 0;
       EXPECT_LT(one.ratio(), 30) << description(scene) << ", degree " << one.degree << ", error "
                                  << one.error << ", estimate " << one.estimate;
     }
   }
-  EXPECT_GT(judged, 20);
+  EXPECT_GT(judged, 70);
+  EXPECT_LE(high, judged / 30);
 }
 
 // The two of a dozen directions along which the jet itself is largest show no more than a hundredth

@@ -109,13 +109,13 @@ struct InversionQuality {
 /// radius_km.
 ///
 /// error-estimate: the estimated error of the degree that is worst relative to its limit, see
-/// estimate_error. With a tolerance, the limit is error_estimate_safety times the sum of two terms.
-/// The first is 100 tolerance n, where n, at least 1, is the number of periods of the linearised
-/// motion (IntegrationStatistics::periods) for Gauss, and of steps for other methods. The second is
-/// twenty rounding floors, at most 1e-3. A rounding floor is the larger of two numbers: the error
-/// that shorter steps did not remove (rounding_by_degree; from four draws if a single one would
-/// fail the run), and sqrt(1 + steps) times the change of the degree that half-ulp changes of the
-/// start cause. Fixed steps promise no error, and have a limit only if the scene sets one, for all
+/// estimate_error. With a tolerance, the limit is the sum of two terms. The first is 100 tolerance
+/// n, where n, at least 1, is the number of periods of the linearised motion
+/// (IntegrationStatistics::periods) for Gauss, and of steps for other methods. The second is twenty
+/// rounding floors, at most 1e-3. A rounding floor is the larger of two numbers: the error that
+/// shorter steps did not remove (rounding_by_degree; from four draws if a single one would fail the
+/// run), and sqrt(1 + steps) times the change of the degree that half-ulp changes of the start
+/// cause. Fixed steps promise no error, and have a limit only if the scene sets one, for all
 /// degrees; if a degree has no right digit, the text says so.
 std::vector<SelfCheck> self_checks(const Scene& scene, const RunResult& run);
 

@@ -15,7 +15,6 @@
 #include "deputy_flows.hpp"
 #include "hamjet/charts/flow_box.hpp"
 #include "hamjet/error.hpp"
-#include "hamjet/integrators/error_estimate.hpp"
 #include "orbit_charts.hpp"
 
 namespace hamjet {
@@ -103,9 +102,7 @@ void estimate_flow_box_error(const Scene& scene, ChartedJet& result) {
     std::vector<double> shown =
         relative_error_by_degree(comparable(result.jet), comparable(values_of_flow_box(map)));
     raise_to(shown[0], relative_difference(result.nominal_final, map.end->origin()));
-    for (std::size_t d = 0; d < errors.size(); ++d) {
-      raise_to(errors[d], error_estimate_safety * shown[d]);
-    }
+    for (std::size_t d = 0; d < errors.size(); ++d) raise_to(errors[d], shown[d]);
   }
   result.error_estimate.by_degree = std::move(errors);
 }
