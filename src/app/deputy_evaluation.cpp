@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "../integrators/concurrent_tasks.hpp"
-#include "../maps/evaluation_error.hpp"
 #include "../studies/checks/flight_checks.hpp"
 #include "../studies/exact_flow.hpp"
 #include "../studies/formation/charts/deputy_flows.hpp"
@@ -30,11 +29,12 @@ void set_rounding(EvaluatedScene& scene, const SixNumbers<double>& start, double
                      scene.chief.units.length_km * 1000;
 }
 
-/// The end of a flow box's section as it is stored; empty in other coordinates.
-std::vector<double> stored_end_of(const DeputyFlowPropagation& propagation) {
+/// The chief's end as it is stored: that of a flow box's section, or of the flow itself.
+std::vector<double> stored_end_of(const DeputyFlowPropagation& propagation,
+                                  const DeputyFlow& flow) {
   const auto& box = propagation.flow_box();
-  if (!box) return {};
-  return {box->end->origin().begin(), box->end->origin().end()};
+  const SixNumbers<double>& end = box ? box->end->origin() : flow.chief_end();
+  return {end.begin(), end.end()};
 }
 
 /// The highest order whose estimate has the next degree, which takes up to twice the time of all
@@ -51,10 +51,10 @@ FurtherFlow flow_of_next_degree(const Scene& scene, const IntegratorSettings& in
     DeputyFlowPropagation propagation(further, problem, integrator, coordinates);
     FurtherFlow result;
     result.flow = propagation.advance_to(scene.duration);
-    result.stored_end = stored_end_of(propagation);
+    result.stored_end = stored_end_of(propagation, *result.flow);
     return result;
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::numerical) throw;
+    if (error.kind() != ErrorKind::numerical && error.kind() != ErrorKind::too_large) throw;
     return {};
   }
 }
@@ -89,7 +89,7 @@ void integrate_flow(const Scene& scene, const ComputedProblem& problem, Evaluate
   if (const auto& box = propagation.flow_box()) {
     result.chief.flow_box = {box->start->chart().name(), orbit_field(scene)};
   }
-  result.stored_end = stored_end_of(propagation);
+  result.stored_end = stored_end_of(propagation, *result.flow);
 }
 
 }  // namespace
@@ -316,148 +316,9 @@ void DeputyEvaluation::run(
   pending_.clear();
 }
 
-bool DeputyEvaluation::is_nearly_straight(const SixNumbers<double>& initial,
-                                          const DeputyPrediction& found) const {
-  constexpr double largest_share = 0.1;  // the largest share of the deviation that a degree adds
-  // The largest deviation as a share of the chief's distance.
-  constexpr double largest_extent = 0.03;
-  const auto length = [](const SixNumbers<double>& z) { return std::hypot(z[0], z[1], z[2]); };
-  const double size = std::max(length(initial), length(found.deviation));
-  return length(found.highest[0]) <= largest_share * size &&
-         length(found.highest[1]) <= largest_share * size &&
-         size <= largest_extent * length(scene_.flow->chief_end());
-}
-
-MissEstimate DeputyEvaluation::estimate(const DeputyPrediction& prediction) const {
-  const io::StoredJet& chief = scene_.chief;
-  const double length_m = chief.units.length_km * 1000;
-  SixNumbers<double> lower = prediction.deviation;
-  const auto& [last, last_but_one, last_but_two] = prediction.highest;
-  for (std::size_t i = 0; i < 6; ++i) lower[i] -= last[i] + last_but_one[i];
-  const auto norms = [&](const SixNumbers<double>& z) {
-    const double position = std::hypot(z[0], z[1], z[2]);
-    const double momentum = std::hypot(z[3], z[4], z[5]) / momentum_unit_;
-    return DegreeShares::Norms{std::hypot(position, momentum), position * length_m};
-  };
-  const TruncationEstimate truncation =
-      estimate_truncation(degree_, {norms(lower), norms(last_but_one), norms(last)});
-  return {truncation.support, truncation.miss, 0};
-}
-
-namespace {
-
-/// Floors of flights are cautious. Beside closed forms, errors of a thousand random deputies that
-/// rounding limits were a third of them in the median, and once in a hundred a fortieth or 1.2
-/// times.
-constexpr double rounding_margin = 3;
-
-}  // namespace
-
-double DeputyEvaluation::uncancelled(const SixNumbers<double>& initial) const {
-  const auto& jet = scene_.flow->polynomials();
-  const SeriesSpace& space = jet[0].space();
-  double squares = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double sum = 0;
-    for (std::size_t v = 0; v < initial.size(); ++v) {
-      sum += std::abs(jet[i][space.linear_index(v)] * initial[v]);
-    }
-    squares += sum * sum;
-  }
-  return std::sqrt(squares);
-}
-
-double DeputyEvaluation::chief_error() const {
-  const double length_m = scene_.chief.units.length_km * 1000;
-  return std::max(scene_.error.of_chief(), scene_.rounding_m / length_m);
-}
-
-void DeputyEvaluation::add_errors(const SixNumbers<double>& initial,
-                                  const SixNumbers<double>& found, MissEstimate& told) const {
-  const auto speed = [](const SixNumbers<double>& z) { return std::hypot(z[3], z[4], z[5]); };
-  const double length_m = scene_.chief.units.length_km * 1000;
-  told.integration_m = scene_.error.of_deviation(initial) * length_m;
-  if (scene_.coordinates == JetCoordinates::cartesian) {
-    // Nothing is rounded but numbers of the deviation's own size.
-    told.rounding_m = evaluation_rounding(scene_.flow->polynomials()[0].space(), degree_) *
-                      uncancelled(initial) * length_m;
-    return;
-  }
-  told.rounding_m = scene_.rounding_m / rounding_margin;
-  const SixNumbers<double>& chief = scene_.flow->chief_end();
-  SixNumbers<double> deputy = chief;
-  for (std::size_t i = 0; i < deputy.size(); ++i) deputy[i] += found[i];
-  // What is behind in time is behind by as much more in place as it is faster than the chief.
-  const double faster = std::max(1.0, speed(deputy) / speed(chief));
-  told.rounding_m *= faster;
-  told.integration_m *= faster;
-  told.integration_m += speed(found) / speed(chief) * chief_error() * length_m;
-}
-
 const DeputyFlow* DeputyEvaluation::further_flow() const {
   if (degree_ < 2 || scene_.coordinates == JetCoordinates::cartesian) return nullptr;
   return scene_.flow->order() > degree_ ? scene_.flow.get() : scene_.further.flow.get();
-}
-
-MissEstimate DeputyEvaluation::curved_estimate(const SixNumbers<double>& initial,
-                                               const SixNumbers<double>& found,
-                                               const std::array<SixNumbers<double>, 3>& lower,
-                                               const DeputyPrediction* next) const {
-  using Support = TruncationEstimate::Support;
-  const auto distance = [](const SixNumbers<double>& a, const SixNumbers<double>& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-  };
-  const SixNumbers<double> none{};
-  MissEstimate result{Support::unknown, 0, 0};
-  add_errors(initial, found, result);
-  if (degree_ < 2) return result;
-  const double change = distance(found, lower[0]);
-  if (!std::isfinite(change) || !std::isfinite(scene_.rounding_m)) return result;
-  const double size = std::max(distance(initial, none), distance(found, none));
-  bool is_decaying = false;
-  double left = 1;  // of what the highest degree changes
-  if (degree_ >= 3) {
-    const double before = distance(lower[0], lower[1]);
-    const double two_before = distance(lower[1], lower[2]);
-    if (!std::isfinite(before)) return result;
-    // A change that is rounding says nothing of a decay.
-    const double rounding = scene_.rounding_m / (scene_.chief.units.length_km * 1000);
-    is_decaying = change < before || change <= rounding;
-    // The lowest degrees may leave a deputy where the coordinates of the end are none.
-    const double all = std::isfinite(two_before) ? decay_of_degrees(2, two_before, before, change)
-                                                 : decay_of_degrees(1, before, before, change);
-    constexpr double largest_decay = 2;
-    const double decay = std::min(all, is_decaying ? 1.0 : largest_decay);
-    // Degrees that bend little may fall off faster at first than they go on.
-    constexpr double least_decay = 0.02;
-    left = std::max({decay, least_decay, change > 0 ? before / change * decay * decay : 0});
-  }
-  if (change > 0 && next) {
-    // What is left goes on as the next degree does, which may vanish by chance, and then as those
-    // before it.
-    const double further = distance(next->deviation, found) / change;
-    const double decay = degree_ == 2 ? change / size : left;
-    // Where it changes far more, coefficients are no more than rounding, or the series diverges.
-    constexpr double most = 10;
-    if (std::isfinite(further)) {
-      left =
-          std::clamp(further / (1 - std::min(further, 0.5)), std::min(decay * decay, most), most);
-    }
-  } else if (change > 0 && degree_ == 2) {
-    // Coordinates that bend as the flow does leave degree 2 little of a deviation, and degree 3 as
-    // much less of that as deputies are near. Results state their coefficients' errors.
-    constexpr double margin = 2;
-    const double nearness = size / distance(scene_.flow->chief_end(), none);
-    const std::vector<double>& errors = scene_.chief.error_by_degree;
-    left = margin * std::max({change / size, nearness, errors.size() > 2 ? errors[2] : 1.0});
-    left = std::min(left, 1.0);
-  }
-  // Of the deviation that a degree may change. Degrees that are small already need not decay one by
-  // one, for the lower may vanish by chance; less is relied upon then.
-  const double largest_share = is_decaying ? 0.1 : 1e-4;
-  result.support = change <= largest_share * size ? Support::inside : Support::outside;
-  result.truncation_m = change * left * scene_.chief.units.length_km * 1000;
-  return result;
 }
 
 }  // namespace hamjet::cli

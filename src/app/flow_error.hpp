@@ -56,7 +56,7 @@ class FlowError {
   std::optional<Bound> bound_;
 };
 
-/// A bound on the error of a stored chief's final position, from the error of degree 0 that the
+/// About the error of a stored chief's final position, from the error of degree 0 that the
 /// results state; 0 where they do not.
 double stated_chief_error(const io::StoredJet& stored);
 

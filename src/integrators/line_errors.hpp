@@ -45,9 +45,9 @@ void include_known(std::vector<double>& result, const Direction<Real>& direction
   }
 }
 
-/// By degree, the part of the differences between a jet and a first run that is the jet's own. Where
-/// a second run is closer to the jet along the directions that both runs have, the rest is the error
-/// of the first: two independent integrations seldom agree by chance.
+/// By degree, the part of the differences between a jet and a first run that is the jet's own.
+/// Where a second run is closer to the jet along the directions that both runs have, the rest is
+/// the error of the first: two independent integrations seldom agree by chance.
 template <class Real>
 std::vector<double> own_parts(std::span<const Direction<Real>> directions,
                               const std::vector<FlowJet<Real>>& first,
@@ -63,7 +63,8 @@ std::vector<double> own_parts(std::span<const Direction<Real>> directions,
   std::vector<double> parts = differences(second);
   const std::vector<double> to_first = differences(first);
   for (std::size_t d = 0; d < parts.size(); ++d) {
-    parts[d] = parts[d] < to_first[d] ? parts[d] / to_first[d] : 1;
+    const bool is_nearer = parts[d] < to_first[d] && std::isfinite(to_first[d]);
+    parts[d] = is_nearer ? parts[d] / to_first[d] : 1;
   }
   return parts;
 }

@@ -54,7 +54,7 @@ std::vector<Series<double>> evaluation_error(const std::vector<Series<double>>& 
     for (std::size_t c = 0; c < map.size(); ++c) {
       for (std::size_t k = space.first(d); k < space.first(d + 1); ++k) {
         const double size = std::abs(map[c][k]);
-        result[c][k] = relative * size + error_of(d) * std::sqrt(largest * size);
+        result[c][k] = relative * size + error_of(d) * std::sqrt(largest) * std::sqrt(size);
       }
     }
   }

@@ -249,7 +249,10 @@ PolynomialsStudy restored_polynomials(const JetState& state, const py::object& c
     cli::set_chief_end(evaluated, std::move(chief_end));
   if (next) {
     const io::StoredJet further = restored(next->first, next->second);
-    if (further.order() != stored.order() + 1) refuse_state();
+    if (further.order() != stored.order() + 1 || further.coordinates != stored.coordinates ||
+        further.nominal_initial != stored.nominal_initial) {
+      refuse_state();
+    }
     evaluated.further = {cli::evaluated_jet(further).flow, further.nominal_final};
   }
   return PolynomialsStudy(std::move(evaluated));
@@ -308,7 +311,7 @@ py::tuple reduced(const PolynomialsStudy& study) {
   if (evaluated.further.flow) {
     cli::EvaluatedScene of_next = evaluated;
     of_next.flow = evaluated.further.flow;
-    if (!evaluated.further.stored_end.empty()) of_next.stored_end = evaluated.further.stored_end;
+    of_next.stored_end = evaluated.further.stored_end;
     const io::StoredJet further = cli::stored_polynomials(of_next);
     next.emplace(state_of(further), coefficients_of(further));
   }

@@ -13,13 +13,13 @@
 namespace hamjet::unlike_evaluation_tests {
 namespace {
 
-Scene scene_with(const std::string& deputy) {
+Scene scene_with(const std::string& deputy, const std::string& position = "[10, -300, 20]") {
   return io::parse_scene(
       "[system]\nmodel = \"earth\"\ngravity_degree = 4\natmosphere = \"harris-priester\"\n"
       "[spacecraft]\ndrag_m2_kg = 0.02\n[nominal]\nepoch_utc = \"2026-03-01T06:00:00\"\n"
       "height_km = 400\ni_deg = 97.5\nraan_deg = 30\nu_deg = 0\n[deputy]\n"
-      "position_m = [10, -300, 20]\n" +
-          deputy + "[jet]\norder = 3\nduration_s = 12000\n",
+      "position_m = " +
+          position + "\n" + deputy + "[jet]\norder = 3\nduration_s = 12000\n",
       "file.toml");
 }
 
@@ -58,6 +58,14 @@ TEST(UnlikeEvaluation, IsThatOfFlightsWithOwnCoefficients) {
   double apart = 0;
   for (std::size_t i = 0; i < 3; ++i) apart += std::pow(end[i] - alike[i], 2);
   EXPECT_GT(std::sqrt(apart) * length_m, 10);
+}
+
+// Where both start alike, polynomials of the deviation add nothing, and the answer is the
+// difference of two flights. A place 6778 km from the centre is rounded to 0.9 nm.
+TEST(UnlikeEvaluation, OfTheChiefsPlaceIsNoBetterThanTwoFlights) {
+  double miss_m = 0;
+  predicted(scene_with("spacecraft = {drag_m2_kg = 0.05}\n", "[0, 0, 0]"), miss_m);
+  EXPECT_GT(miss_m, 1e-9);
 }
 
 }  // namespace

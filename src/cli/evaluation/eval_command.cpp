@@ -76,13 +76,13 @@ void check_options(const EvalOptions& options) {
 /// What an estimate of the miss is made of.
 std::string miss_covers(const EvalSource& jet) {
   if (jet.scene && !jet.scene->error.is_known()) {
-    return fmt::format("missing degrees and the rounding of flights; not errors of the {}",
+    return fmt::format("missing degrees and rounding; not errors of the {}",
                        jet.scene->seconds > 0
                            ? "integration, which independent ones could not follow"
                            : "coefficients, of which the results say nothing");
   }
   if (jet.scene) {
-    return fmt::format("missing degrees, the rounding of flights, and errors of {}",
+    return fmt::format("missing degrees, rounding, and errors of {}",
                        jet.scene->seconds > 0
                            ? "the integration, by two others of the chief and of degree 1"
                            : "degrees 0 and 1 as the results state them");

@@ -86,7 +86,7 @@ class Polynomials(Immutable):
         """Carries relative states to the end, as `hamjet eval scene.toml` does, to the same digits.
 
         Arguments and result as of ``Jet.evaluate_relative``. Estimates of the miss cover what the
-        missing degrees would add and the rounding of flights, not the error of the integration.
+        missing degrees would add, rounding, and the error of the integration of degrees 0 and 1.
         Where the scene has a table [eval], deputies beyond reach are split into domains with
         polynomials of their own, which `domains` of the result tells.
         Raises UsageError, and NumericalError if strict.

@@ -322,6 +322,18 @@ TEST(FiniteBurns, PropellantIsThatOfTheRocketEquation) {
   EXPECT_FALSE(dry.least_acceleration_m_s2);  // no thrust makes them take so much less
 }
 
+// Changes of some metres a second behind an exhaust of 0.1 m/s leave exp(-20) of the mass and less,
+// whose flight does not end.
+TEST(FiniteBurns, SpacecraftThatWouldBeSpentAreSaid) {
+  Scene scene = with_falling_mass(on_an_ellipse(2e-2));
+  scene.thruster->exhaust_m_s = 0.1;
+  const BurnPlan plan = plan_of(scene);
+  EXPECT_NE(
+      plan.failure.find("would leave less than 0.001 of the mass behind an exhaust of 0.1 m/s"),
+      std::string::npos)
+      << plan.failure;
+}
+
 TEST(FiniteBurns, BurnsThatAreTooShortAreSaid) {
   Scene scene = on_an_ellipse(2e-2);
   scene.thruster->shortest_burn_s = 1e3;

@@ -20,9 +20,8 @@ std::optional<std::string> reason_without_charted_jet(const Scene& scene);
 /// Where the scene estimates errors, flow boxes are integrated twice more, by Gauss methods of 16
 /// and 15 stages to the rounding of the numbers, from starts moved by a unit in the last place, so
 /// that all roundings are different. The estimate of degree d is the largest difference of a
-/// coefficient, relative to the largest of the degree, times error_estimate_safety, and never below
-/// the rounding. For degree 0 it includes the error of the chief's final state, through which the
-/// section at the end goes.
+/// coefficient, relative to the largest of the degree, and never below the rounding. For degree 0 it
+/// includes the error of the chief's final state, through which the section at the end goes.
 ///
 /// Precondition: reason_without_charted_jet has no value, and the coordinates are not Cartesian.
 ChartedJet charted_jet(const Scene& scene, const RunResult& run);
