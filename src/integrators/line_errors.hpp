@@ -66,6 +66,9 @@ std::vector<double> own_parts(std::span<const Direction<Real>> directions,
     const bool is_nearer = parts[d] < to_first[d] && std::isfinite(to_first[d]);
     parts[d] = is_nearer ? parts[d] / to_first[d] : 1;
   }
+  // Lines of a run share the nominal, so that one difference stands for all of degree 0, and may be
+  // small by chance.
+  parts[0] = std::sqrt(parts[0]);
   return parts;
 }
 

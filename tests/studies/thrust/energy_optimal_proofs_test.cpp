@@ -245,7 +245,7 @@ void expect_those_of_shooting(const Orbit& orbit, double separation_m,
     ASSERT_LT(other.missing.norm(), 1e-12);
     const double energy = static_cast<double>(other.end[12]) * energy_unit(scene);
     // The answer was corrected to 1e-7 of the separation.
-    EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-9 * energy);
+    EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-5 * energy);
     const auto wrong = [&](std::size_t k) {
       return std::abs(transfer.answers[k].energy_m2_s3 / energy - 1);
     };
@@ -287,7 +287,7 @@ void expect_followed(const Orbit& orbit, double separation_m, double revolutions
   }
   EXPECT_LT(miss * units_of(scene).length_m, 1e-6 * separation_m);
   const double energy = static_cast<double>(end[12]) * energy_unit(scene);
-  EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-5 * energy);
+  EXPECT_NEAR(transfer.energy_m2_s3, energy, 1e-9 * energy);
 }
 
 TEST(EnergyOptimalProofs, BeyondThePolynomialsReachThrustIsFollowedFromSmallerDeviations) {
