@@ -182,7 +182,7 @@ def test_a_miss_is_what_the_last_degrees_add(coordinates, size_m, tolerance):
     added = fourth.evaluate_relative(states).states - third.states
     share = np.linalg.norm(added[:, :3], axis=1) / change
     further = np.maximum(share / (1 - np.minimum(share, 0.5)), decay ** 2)
-    expected = change * np.minimum(further, 10)
+    expected = change * np.minimum(further, 10 * np.maximum(decay, 1))
     inside = (third.support == "inside") & (expected > 1e-4)  # above rounding
     if size_m > 1e5:
         distances = np.linalg.norm(third.states[:, :3], axis=1)
