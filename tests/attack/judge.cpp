@@ -143,7 +143,9 @@ class Judge {
     verdict_.estimate_ratio = 0;
     for (std::size_t k = 0; k < estimate->size(); ++k) {
       const double error = mean_error(lines, k);
-      const double ratio = error <= 0 ? 0 : error / estimate->at(k);
+      // Below the floor an error may be that of rounded constants, which all integrations share.
+      const double floor = floor_of(drawn_, lines[0].errors.floor[k]);
+      const double ratio = error <= floor ? 0 : error / estimate->at(k);
       verdict_.estimate_ratio = std::max(*verdict_.estimate_ratio, ratio);
       if (settings_.is_talkative) {
         fmt::print("  degree {}: error {:.2e}, estimate {:.2e}\n", k, error, estimate->at(k));
