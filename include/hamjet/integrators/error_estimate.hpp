@@ -38,14 +38,16 @@ struct ErrorEstimateSettings {
 /// by the geometric mean of the jet's largest coefficient and its size along the directions without
 /// cancellation (by less where the run is smaller than the jet). Where the second run is closer to
 /// the jet than the first along the directions that both have, the first has errors of its own, and
-/// the result is reduced by the ratio. The estimate is at least the rounding of Real.
+/// the result is reduced by the ratio; that of degree 0 by its root, for all lines share the
+/// nominal, and a single difference may be small by chance. The estimate is at least the rounding
+/// of Real.
 ///
 /// `known` may hold independent jets of this flow along lines, with other stages and finer steps
 /// than those of the given jet (IntegrationStatistics::finer_lines). They then replace the second
-/// run, with differences relative to the jet along the line, which may double the estimate. The
-/// second run is made all the same if they show ten times the error of the first run at some
-/// degree, or if a degree of the jet is thirty times larger or smaller along one of them than its
-/// largest coefficients.
+/// run, with differences relative to the jet along the line, which may double the estimate, and
+/// raise that of degree 0 by any factor. The second run is made all the same if they show ten times
+/// the error of the first run at some degree, or if a degree of the jet is thirty times larger or
+/// smaller along one of them than its largest coefficients.
 ///
 /// Sixteen directions are drawn from a generator of constant seed. Their entries have random signs
 /// and magnitudes between sqrt(1/2) and sqrt(2), so that no monomial is lost. The eight directions
@@ -88,8 +90,7 @@ std::vector<std::vector<double>> estimate_errors(const FlowProblem<Real>& proble
 /// coefficient is moved by up to half a unit in the last place of the largest position, or
 /// momentum, of its degree, so that all later roundings are drawn anew while the truncation stays.
 /// The result is the largest of the four root mean squares of the differences from the unmoved
-/// start, in the scale of the estimate. Throws as estimate_error, and
-/// what `integrate` throws.
+/// start, in the scale of the estimate. Throws as estimate_error, and what `integrate` throws.
 template <class Real>
 std::vector<double> sample_rounding(
     const FlowProblem<Real>& problem, const FlowJet<Real>& jet,
