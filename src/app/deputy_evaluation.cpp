@@ -115,7 +115,6 @@ EvaluatedScene evaluated_scene(const Scene& asked) {
   chief.is_autonomous = problem.system->is_autonomous();
   chief.nominal_initial = scene.nominal;
   chief.nominal_final.assign(result.flow->chief_end().begin(), result.flow->chief_end().end());
-  if (result.stored_end.empty()) result.stored_end = chief.nominal_final;
   if (!is_like_chief(asked)) {
     set_chief_end(result, exact_flow(make_problem(asked).system, scene.nominal, scene.start_time,
                                      scene.duration));

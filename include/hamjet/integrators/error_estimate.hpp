@@ -45,7 +45,7 @@ struct ErrorEstimateSettings {
 /// `known` may hold independent jets of this flow along lines, with other stages and finer steps
 /// than those of the given jet (IntegrationStatistics::finer_lines). They then replace the second
 /// run, with differences relative to the jet along the line, which may double the estimate, and
-/// raise that of degree 0 by any factor. The second run is made all the same if they show ten times
+/// raise that of degree 0 ten times. The second run is made all the same if they show ten times
 /// the error of the first run at some degree, or if a degree of the jet is thirty times larger or
 /// smaller along one of them than its largest coefficients.
 ///
