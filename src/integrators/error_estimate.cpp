@@ -56,15 +56,6 @@ bool is_confirmed(const std::vector<double>& own, const std::vector<double>& kno
   });
 }
 
-/// Leaves of the differences to a first run what a second one lets be the jet's own error.
-template <class Real>
-void take_own_part(std::vector<double>& differences, std::span<const Direction<Real>> directions,
-                   const std::vector<FlowJet<Real>>& first,
-                   const std::vector<FlowJet<Real>>& second) {
-  const std::vector<double> parts = own_parts<Real>(directions, first, second);
-  for (std::size_t d = 0; d < parts.size(); ++d) differences[d] *= parts[d];
-}
-
 template <class Real>
 void validate_lines(const FlowProblem<Real>& problem,
                     const std::vector<JetAlongLine<Real>>& known) {

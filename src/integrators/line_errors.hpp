@@ -45,13 +45,13 @@ void include_known(std::vector<double>& result, const Direction<Real>& direction
   }
 }
 
-/// By degree, the part of the differences between a jet and a first run that is the jet's own.
-/// Where a second run is closer to the jet along the directions that both runs have, the rest is
-/// the error of the first: two independent integrations seldom agree by chance.
+/// Leaves of a jet's differences to a first run, by degree, the part that is the jet's own. Where a
+/// second run is closer to the jet along the directions that both runs have, the rest is the error
+/// of the first: two independent integrations seldom agree by chance.
 template <class Real>
-std::vector<double> own_parts(std::span<const Direction<Real>> directions,
-                              const std::vector<FlowJet<Real>>& first,
-                              const std::vector<FlowJet<Real>>& second) {
+void take_own_part(std::vector<double>& of_first, std::span<const Direction<Real>> directions,
+                   const std::vector<FlowJet<Real>>& first,
+                   const std::vector<FlowJet<Real>>& second) {
   const auto differences = [&](const std::vector<FlowJet<Real>>& lines) {
     std::vector<double> sum(lines.front()[0].size(), 0);
     for (std::size_t k = 0; k < directions.size(); ++k) {
@@ -60,16 +60,15 @@ std::vector<double> own_parts(std::span<const Direction<Real>> directions,
     }
     return sum;
   };
-  std::vector<double> parts = differences(second);
   const std::vector<double> to_first = differences(first);
-  for (std::size_t d = 0; d < parts.size(); ++d) {
-    const bool is_nearer = parts[d] < to_first[d] && std::isfinite(to_first[d]);
-    parts[d] = is_nearer ? parts[d] / to_first[d] : 1;
+  const std::vector<double> to_second = differences(second);
+  for (std::size_t d = 0; d < of_first.size(); ++d) {
+    if (!(to_second[d] < to_first[d] && std::isfinite(to_first[d]))) continue;
+    const double part = to_second[d] / to_first[d];
+    // Lines of a run share the nominal, so that one difference stands for all of degree 0, and may
+    // be small by chance.
+    of_first[d] *= d == 0 ? std::sqrt(part) : part;
   }
-  // Lines of a run share the nominal, so that one difference stands for all of degree 0, and may be
-  // small by chance.
-  parts[0] = std::sqrt(parts[0]);
-  return parts;
 }
 
 /// By degree, the differences between a jet and lines along its directions, as root mean squares
