@@ -234,7 +234,9 @@ class TimeExpansion {
   /// The coefficient of t^k of a function of the time, which is asked once for all of them.
   T time_value(const Operation& o, int k) {
     std::vector<T>& values = time_values_[o.time_function.get()];
-    if (values.empty()) values = expand_in_lanes<T, Real>(*o.time_function, *value(o.u), order_);
+    if (values.empty()) {
+      expand_in_lanes<T, Real>(*o.time_function, *value(o.u), order_, values);
+    }
     T result = values[o.component * stride_ + static_cast<std::size_t>(k)];
     for (int j = 0; j < k; ++j) result *= unit_;
     return result;

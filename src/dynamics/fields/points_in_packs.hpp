@@ -32,8 +32,18 @@ void for_points_in_packs(std::size_t count, const std::array<const Real*, Inputs
     }
     expand(packs, outputs.data());
     for (std::size_t k = 0; k < size; ++k) {
+      Real* const target = out + k * count + first;
+      if constexpr (std::experimental::is_simd_v<typename P::Vector>) {
+        // The eight stages of a step fill a pack, and are stored as vectors.
+        if (last + 1 == Lanes) {
+          for (std::size_t i = 0; i < P::parts; ++i) {
+            outputs[k].part[i].copy_to(target + i * P::width, std::experimental::element_aligned);
+          }
+          continue;
+        }
+      }
       for (std::size_t lane = 0; lane <= last; ++lane) {
-        out[k * count + first + lane] = outputs[k].lane(static_cast<int>(lane));
+        target[lane] = outputs[k].lane(static_cast<int>(lane));
       }
     }
   };

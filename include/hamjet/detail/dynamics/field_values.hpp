@@ -42,28 +42,34 @@ struct ObjectLanes {
       return convert<Real>(*source);
     }
   }
+  static void set(T& value, std::size_t lane, const Number& number) {
+    if constexpr (is_pack<T>) {
+      value.set_lane(static_cast<int>(lane), convert<Real>(number));
+    } else {
+      value = convert<Real>(number);
+    }
+  }
 };
 
-/// The Taylor coefficients of a function of the time, as TimeFunction::expand, each lane about its
-/// own time; those of a lane without a time are NaN. Such functions know no double-double numbers.
+/// Sets the Taylor coefficients of a function of the time, as TimeFunction::expand, each lane about
+/// its own time; those of a lane without a time are NaN. Such functions know no double-double
+/// numbers.
 template <class T, class Real>
-std::vector<T> expand_in_lanes(const TimeFunction& function, const T& time, int degree) {
+void expand_in_lanes(const TimeFunction& function, const T& time, int degree,
+                     std::vector<T>& coefficients) {
   using Number = std::conditional_t<std::is_same_v<Real, double>, double, Extended>;
   using Lanes = ObjectLanes<T, Real, Number>;
-  constexpr std::size_t lanes = Lanes::count();
-  std::array<Number, lanes> times;
+  std::array<Number, Lanes::count()> times;
   Lanes::put(time, times.data());
-  const std::size_t size = function.components() * (static_cast<std::size_t>(degree) + 1);
-  std::vector<Number> at_lane(size);
-  std::vector<Number> all(size * lanes, std::numeric_limits<Number>::quiet_NaN());
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  std::vector<Number> at_lane(function.components() * (static_cast<std::size_t>(degree) + 1));
+  coefficients.assign(at_lane.size(), T(Real(std::numeric_limits<double>::quiet_NaN())));
+  for (std::size_t lane = 0; lane < times.size(); ++lane) {
     if (!(times[lane] == times[lane])) continue;
     function.expand(times[lane], degree, at_lane.data());
-    for (std::size_t j = 0; j < size; ++j) all[j * lanes + lane] = at_lane[j];
+    for (std::size_t j = 0; j < at_lane.size(); ++j) {
+      Lanes::set(coefficients[j], lane, at_lane[j]);
+    }
   }
-  std::vector<T> result;
-  for (std::size_t j = 0; j < size; ++j) result.push_back(Lanes::take(&all[j * lanes]));
-  return result;
 }
 
 /// The fields of a list that expand_fields made: their values, the coefficients of their

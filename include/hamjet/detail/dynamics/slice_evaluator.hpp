@@ -195,7 +195,9 @@ class SliceEvaluator {
   /// A component of a function of the time; a function is asked once for all its components.
   [[gnu::noinline]] T time_value(const Operation& o) {
     std::vector<T>& values = time_values_[{o.time_function.get(), o.u}];
-    if (values.empty()) values = expand_in_lanes<T, Real>(*o.time_function, *value(o.u), 0);
+    if (values.empty()) {
+      expand_in_lanes<T, Real>(*o.time_function, *value(o.u), 0, values);
+    }
     return values[o.component];
   }
 
