@@ -29,6 +29,25 @@ def shipped_field():
     return REAL(head["earth_gravity_constant"]), REAL(head["radius"]), C, S
 
 
+def made_up_field(draw, degree):
+    """As shipped_field, with the Earth's J2 and all else drawn of the sizes of Kaula's rule; and the
+    text of its file."""
+    mu, radius, shipped_C, _ = shipped_field()
+    C, S = np.zeros((degree + 1,) * 2, dtype=REAL), np.zeros((degree + 1,) * 2, dtype=REAL)
+    C[0, 0] = 1
+    lines = ["product_type gravity_field", "modelname MADE_UP",
+             f"earth_gravity_constant {mu}", f"radius {radius}", f"max_degree {degree}",
+             "tide_system tide_free", "end_of_head", "gfc 0 0 1.0 0.0"]
+    for n in range(2, degree + 1):
+        for m in range(n + 1):
+            pair = [draw.uniform(-1e-5, 1e-5) / n ** 2 for _ in range(2)]
+            if m == 0:
+                pair = [float(shipped_C[2, 0]) if n == 2 else pair[0], 0.0]
+            C[n, m], S[n, m] = pair
+            lines.append(f"gfc {n} {m} {pair[0]!r} {pair[1]!r}")
+    return (mu, radius, C, S), "\n".join(lines) + "\n"
+
+
 def tai_minus_utc(day, fraction=0.0):
     fraction = np.array([fraction])
     return REAL(round(LIBRARY.tai_minus_utc(day.year, day.month, day.day, address(fraction)), 12))
@@ -124,14 +143,14 @@ class Orientation:
 class EarthField(Field):
     """Flights along GCRF; times are seconds after the epoch."""
 
-    def __init__(self, degree, order, sun, moon, epoch, orientation=None, air=None,
+    def __init__(self, gravity, degree, order, sun, moon, epoch, orientation=None, air=None,
                  radiation_m2_kg=REAL(0)):
-        """The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
+        """The gravity is as shipped_field gives it, taken up to a degree and order. The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
         factor of all densities; the light is that of C_R A / m, without a shadow until light_chief."""
-        self._settings = degree, order, sun, moon, epoch, orientation
+        self._settings = gravity, degree, order, sun, moon, epoch, orientation
         self._lights = None
         self.air, self.radiation_m2_kg = air, radiation_m2_kg
-        mu, radius, C, S = shipped_field()
+        mu, radius, C, S = gravity
         super().__init__(mu, radius)
         below = [(n, m) for n in range(degree + 1) for m in range(n + 1)]
         of_degree = [np.array([x[n, m] if m <= order else 0 for n, m in below], dtype=REAL)

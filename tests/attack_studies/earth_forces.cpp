@@ -166,7 +166,7 @@ Vector Earth::harmonics(const Vector& x) const {
   const int degree = settings_.degree;
   const Real r = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
   const Real s = x[0] / r, t = x[1] / r, u = x[2] / r;
-  constexpr int most = 64;
+  constexpr int most = 80;  // above the highest degree that is drawn, by more than 1
   std::array<Real, most> a{}, b{}, before{}, last{}, here{};
   a[0] = 1;
   for (int m = 1; m <= degree; ++m) {

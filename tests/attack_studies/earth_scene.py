@@ -4,7 +4,8 @@ import math
 
 import orbit
 from drawing import Scene, rounded
-from earth import EarthField, Moment, Orientation, shipped_field, tai_minus_utc
+from earth import (EarthField, Moment, Orientation, made_up_field, shipped_field,
+                   tai_minus_utc)
 from flight import REAL
 
 FIRST, LAST = datetime.date(1970, 1, 1), datetime.date(2050, 12, 31)
@@ -24,6 +25,11 @@ class EarthScene(Scene):
     is_earth = True
     coordinates = {"spherical": 1, "cylindrical": 1, "poincare": 1, "nodal": 2, "auto": 2}
 
+    def __init__(self, draw, fine_field=False, **settings):
+        """A fine field is made up, of a degree beyond the shipped one and up to 70."""
+        self.fine_field = fine_field
+        super().__init__(draw, **settings)
+
     def given(self, state):
         return self.field.to_axes(self.axes_name, state)
 
@@ -33,9 +39,16 @@ class EarthScene(Scene):
     def _draw_field(self):
         draw = self.draw
         self.body = "Earth"
-        self.mu, self.radius, _, _ = shipped_field()
         system = self.tables["system"] = {"model": "earth"}
-        self.highest = degree = draw.one_of([2, draw.integer(3, 19), 20], [1, 3, 3])
+        if self.fine_field:
+            degree = draw.integer(21, 70)
+            gravity, self.files["made_up.gfc"] = made_up_field(draw, degree)
+            system["gravity_file"] = "made_up.gfc"
+        else:
+            gravity = shipped_field()
+            degree = draw.one_of([2, draw.integer(3, 19), 20], [1, 3, 3])
+        self.highest = degree
+        self.mu, self.radius = gravity[:2]
         if degree != 20 or draw.chance(0.3):
             system["gravity_degree"] = degree
         order = degree
@@ -59,7 +72,7 @@ class EarthScene(Scene):
             orientation = Orientation(draw, self.epoch, TABLE_DAYS)
             self.files["finals.txt"] = orientation.text
         air = self._draw_air(system) if draw.chance(0.45) else None
-        self.field = EarthField(degree, order, sun, moon, self.epoch, orientation, air,
+        self.field = EarthField(gravity, degree, order, sun, moon, self.epoch, orientation, air,
                                 self._draw_light(system, sun))
 
     def _draw_air(self, system):

@@ -26,7 +26,10 @@ STATES = ["x", "y", "z", "px", "py", "pz"]
 
 
 def draw(source):
-    scene = source.scene(revolutions=(0.05, source.one_of([1, 3, 10])), orders=(1, 2, 3, 4),
+    # A flight of the judge's through a fine field takes a second for each revolution.
+    fine = source.chance(0.25)
+    most = source.one_of([0.2, 0.5]) if fine else source.one_of([1, 3, 10])
+    scene = source.scene(fine_field=fine, revolutions=(0.05, most), orders=(1, 2, 3, 4),
                          weights=(1, 2, 2, 3), coordinates=False)
     scene.parameters = {}
     if scene.is_earth:
@@ -137,8 +140,8 @@ def taylor_coefficients(scene, units, u, order):
     true, uncertainty = from_chebyshev(series, width, order)
     if scene.is_earth and scene.field.air:
         # Flights to one side may enter a piece of the density that the chief does not see, so that
-        # the series is another one for other widths.
-        narrower = width / REAL(1.5)
+        # the series is another one for widths that are much narrower.
+        narrower = width / REAL(3)
         other, _ = from_chebyshev(chebyshev_series(scene, units, u, narrower), narrower, order)
         uncertainty += orbit.norm(true - other)
     return true, uncertainty

@@ -34,7 +34,11 @@ std::string remedy_for(std::string_view name, const std::vector<std::string_view
   if (!nearest(name, keys)) {
     const std::vector<std::string> paths = paths_of_key(name);
     constexpr std::size_t few = 4;
-    if (paths.size() == 1) return fmt::format("must be {}", paths.front());
+    if (paths.size() == 1) {
+      const bool is_at_top = paths.front().find('.') == std::string::npos;
+      return fmt::format("must be {}{}", paths.front(),
+                         is_at_top ? " at the top of the scene, before any table" : "");
+    }
     if (!paths.empty() && paths.size() <= few) {
       return fmt::format("must be one of: {}", fmt::join(paths, ", "));
     }
