@@ -29,8 +29,9 @@ struct StateSizes {
     };
     distance = norm(0);
     speed = norm(3);
-    // At rest nothing else is there to measure by.
+    // At rest, or at the origin, nothing else is there to measure by.
     if (!(speed > Real(0))) speed = Real(1);
+    if (!(distance > Real(0))) distance = Real(1);
   }
 
   Real of(std::size_t place) const { return place < 3 ? distance : speed; }

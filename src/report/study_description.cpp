@@ -89,13 +89,23 @@ std::string lack_of_transfer(const Scene& scene) {
          "`hamjet assign` works on this scene's deputies and slots";
 }
 
-/// What the smallest table of the study holds. For a system that the scene writes a transfer has as
-/// many numbers as that has coordinates, and the scene's own duration.
+/// What the smallest table of the study holds. For a system that the scene writes it has as many
+/// numbers as that has coordinates, and the scene's own duration.
 std::string smallest_table(const StudyDescription& study, const Scene& scene) {
   const bool is_own = scene.system.model == SystemModel::own;
+  if (is_own && study.table == "event") {
+    return fmt::format("surface = \"expression\", expression = \"{}\"",
+                       variable_names(scene.system)[0]);
+  }
+  std::string zeros, ones;
+  for (std::size_t i = 1; i < told_coordinates(scene.system); ++i) {
+    zeros += ", 0";
+    ones += ", 0.01";
+  }
+  if (is_own && study.table == "uncertainty") {
+    return fmt::format("position_m = [0.01{0}], velocity_m_s = [0.01{0}]", ones);
+  }
   if (!is_own || study.table != "transfer") return std::string(study.smallest);
-  std::string zeros;
-  for (std::size_t i = 1; i < told_coordinates(scene.system); ++i) zeros += ", 0";
   return fmt::format(
       "times_canonical = [{:g}], start = {{position_m = [0.01{}]}}, end = {{position_m = [0{}]}}",
       scene.duration, zeros, zeros);
@@ -143,8 +153,7 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "position_m = [100, 100, 100], velocity_m_s = [0.1, 0.1, 0.1]",
      .has_table = &has<&Scene::uncertainty>,
      .study = &uncertainty_done,
-     .declared = &declared_uncertainty,
-     .needs_orbit = true},
+     .declared = &declared_uncertainty},
     {.command = "assign",
      .purpose = "send deputies to slots at the least total velocity change",
      .files = "assignment.csv, costs.csv, pairs.csv and summary.json",
@@ -165,8 +174,7 @@ constexpr StudyDescription descriptions[] = {
      .smallest = "surface = \"equator\"",
      .has_table = &has<&Scene::event>,
      .study = &done<&study_event, &event_report, &event_tables>,
-     .declared = &declared_event,
-     .needs_orbit = true},
+     .declared = &declared_event},
     {.command = "poincare",
      .has_table = [](const Scene&) { return true; },
      .study = &done<&study_frozen_orbit, &frozen_orbit_report, &poincare_tables>,

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "../studies/bounded/event_study.hpp"
+#include "../studies/formation_scale.hpp"
 #include "scene_relative_motion.hpp"
 #include "tables_of_studies.hpp"
 
@@ -19,10 +21,15 @@ void refuse(const TableReader& event, std::string_view key, std::string_view sur
 const TableDescription& event_table() {
   static const EventSettings preset;
   static const TableDescription table = {
-      {{"surface", form::choice({"equator", "plane", "distance", "apsis"}), absent::refused(),
+      {{"surface", form::choice({"equator", "plane", "distance", "apsis", "expression"}),
+        absent::refused(),
         "what vanishes at the event: the height over the equator (a node where it rises), the "
-        "height over a plane, the distance from the centre less `distance_km`, or the product of "
-        "position and velocity (a pericentre where it rises, an apocentre where it falls)"},
+        "height over a plane, the distance from the centre less `distance_km`, the product of "
+        "position and velocity (a pericentre where it rises, an apocentre where it falls), or an "
+        "`expression`, the only one of a system of the scene's own"},
+       {"expression", form::text(), absent::other("required with `expression`, refused without"),
+        "of the variables, x, y, z, px, py, pz of an orbit, in the units of the scene, and of the "
+        "parameters and definitions of an own system; as in `[system]`"},
        {"normal", form::array(form::number(), 3),
         absent::other("required with `plane`, refused without"),
         "normal of the plane, x, y, z of the nominal's axes; of any length"},
@@ -44,11 +51,32 @@ const TableDescription& event_table() {
   return table;
 }
 
+/// What is wrong in the expression is said about its key.
+void read_expression(const TableReader& event, Scene scene, EventSettings& settings) {
+  constexpr std::string_view key = "expression";
+  if (settings.surface != EventSurface::expression) return refuse(event, key, "expression");
+  settings.expression = event.text(key);
+  scene.event = settings;
+  try {
+    if (record_function(event_function(scene)).has_time()) {
+      event.fail(key, "depends on the time, got t in it, must be of variables alone");
+    }
+  } catch (const ExpressionTextError& error) {
+    event.fail(key, error.problem());
+  }
+}
+
 EventSettings read_event(const TableReader& event, const Scene& scene) {
   event.check_keys();
-  require_relative_motion(event, scene);
+  require_deviations(event, scene);
   EventSettings settings;
   settings.surface = EventSurface(event.choice("surface"));
+  if (!is_orbit(scene.system.model) && settings.surface != EventSurface::expression) {
+    event.fail("surface", fmt::format("of an orbit, got {}, must be \"expression\": the surface "
+                                      "is where one in the system's variables vanishes",
+                                      event.found("surface")));
+  }
+  read_expression(event, scene, settings);
   if (settings.surface == EventSurface::plane) {
     const std::vector<double> normal = event.numbers("normal", 3);
     settings.normal = {normal[0], normal[1], normal[2]};
@@ -69,9 +97,14 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   event.read_if_any("direction", settings.direction);
   event.read_if_any("number", settings.number);
   // Deputies beyond this distance have quite different orbits, some of which meet the centre.
-  const double most_m = largest_amplitude * Eigen::Vector3d(scene.nominal.data()).norm() *
-                        scene.units.length_km * 1000;
+  const double most_m = largest_amplitude * size_of_nominal(scene) * scene.units.length_km * 1000;
   if (!event.has("amplitudes_m")) {
+    if (!is_orbit(scene.system.model)) {
+      settings.amplitudes_m.clear();
+      for (const double part : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+        settings.amplitudes_m.push_back(part * most_m);
+      }
+    }
     std::erase_if(settings.amplitudes_m, [&](double amplitude) { return amplitude > most_m; });
     return settings;
   }
@@ -81,7 +114,8 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
     if (amplitude > 0 && amplitude <= most_m) continue;
     event.fail_element("amplitudes_m", i,
                        fmt::format("out of range, got {}, must be above 0 and at most a "
-                                   "twentieth of the chief's distance from the centre, {:.6g}",
+                                   "twentieth of the chief's distance from the centre (of an own "
+                                   "system, of the nominal's size), {:.6g}",
                                    amplitude, most_m));
   }
   return settings;

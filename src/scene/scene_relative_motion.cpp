@@ -124,6 +124,16 @@ void require_deviations(const TableReader& table, const Scene& scene) {
   require_all_variables(table, scene);
 }
 
+void refuse_keys_of_orbits(const TableReader& table, const std::vector<std::string_view>& keys,
+                           std::string_view instead) {
+  for (const std::string_view key : keys) {
+    if (!table.has(key)) continue;
+    table.fail(key, fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
+                                "coordinates of this system are {}",
+                                table.found(key), instead));
+  }
+}
+
 namespace {
 
 const std::vector<std::string_view>& time_keys() {

@@ -21,6 +21,10 @@ inline constexpr int most_deputies = 200;
 void require_relative_motion(const TableReader& table, const Scene& scene);
 /// The same for the studies that also serve systems without an orbit, along three coordinates.
 void require_deviations(const TableReader& table, const Scene& scene);
+/// Refuses keys that are about spacecraft in an orbit, in the table of a system without one;
+/// `instead` is what the table has along the coordinates of such a system.
+void refuse_keys_of_orbits(const TableReader& table, const std::vector<std::string_view>& keys,
+                           std::string_view instead);
 
 /// The keys of read_relative_state, of read_arrival, and of read_place.
 std::vector<SceneKey> relative_state_keys();
@@ -75,12 +79,12 @@ ArrivalState read_arrival(const TableReader& table, const Nominal& nominal);
 /// any time.
 RelativeState read_place(const TableReader& table, const Nominal& nominal);
 
-/// The value of a key of three standard deviations along the axes of a frame, and its numbers, each
-/// from 0 to below the limit, which may be infinite; `of_limit` goes on in the message about one
-/// that is not.
+/// The value of a key of standard deviations along the axes of a frame, and its numbers, each from
+/// 0 to below the limit, which may be infinite; `of_limit` goes on in the message about one that is
+/// not. The key has `count` numbers, and those along further axes are 0.
 ValueForm deviations_form();
 std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
-                                    std::string_view of_limit);
+                                    std::string_view of_limit, std::size_t count = 3);
 
 /// The keys `tolerance_m` and `most_domains` of a table whose set is split into domains; the
 /// absences and meanings say what holds in it. A scene of order 1 is refused: nothing says what is

@@ -329,12 +329,12 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal) {
 }
 
 ValueForm deviations_form() {
-  return form::words("array of 3, each 0 or above", form::array(form::number(), 3));
+  return form::words("array of 3, each 0 or above", form::array(form::number()));
 }
 
 std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,
-                                    std::string_view of_limit) {
-  std::vector<double> deviations = table.numbers(key, 3);
+                                    std::string_view of_limit, std::size_t count) {
+  std::vector<double> deviations = table.numbers(key, count);
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     if (deviations[i] >= 0 && deviations[i] < limit) continue;
     const std::string below =
@@ -343,6 +343,7 @@ std::vector<double> read_deviations(const TableReader& table, std::string_view k
         key, i,
         fmt::format("no standard deviation, got {}, must be from 0{}", deviations[i], below));
   }
+  deviations.resize(3, 0.0);
   return deviations;
 }
 

@@ -122,16 +122,10 @@ double read_singular_margin(const TableReader& transfer, const Nominal& nominal,
 
 /// Two impulses and a thrust that lasts, at listed times, are what a system without an orbit has.
 void refuse_what_needs_orbit(const TableReader& transfer) {
-  for (const std::string_view key : {"impulses", "keep_out_m", "revolutions", "longest_coast_s",
-                                     "waypoint", "singular_margin_orbits"}) {
-    const bool is_two = key == "impulses" && transfer.has(key) && transfer.choice(key) == 0;
-    if (!transfer.has(key) || is_two) continue;
-    transfer.fail(key,
-                  fmt::format("for spacecraft in an orbit, got {}, must be left out: along the "
-                              "coordinates of this system are transfers of two impulses and of a "
-                              "thrust that lasts",
-                              transfer.found(key)));
-  }
+  std::vector<std::string_view> keys = {"keep_out_m", "revolutions", "longest_coast_s", "waypoint",
+                                        "singular_margin_orbits"};
+  if (transfer.has("impulses") && transfer.choice("impulses") != 0) keys.push_back("impulses");
+  refuse_keys_of_orbits(transfer, keys, "transfers of two impulses and of a thrust that lasts");
 }
 
 /// The ellipsoid that must stay free, in which neither end may lie.

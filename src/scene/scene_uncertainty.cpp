@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "../algebra/state_sums.hpp"
+#include "../studies/formation/charts/free_coordinates.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_covariance_file.hpp"
@@ -39,21 +41,25 @@ std::vector<SceneKey> covariance_frame_keys(const Absence& frame) {
 
 /// The keys of read_state_uncertainty.
 std::vector<SceneKey> state_uncertainty_keys() {
-  return {{"position_m", deviations_form(), absent::other("0, or another form of the covariance"),
-           "standard deviations along the axes of the frame"},
-          {"velocity_m_s", deviations_form(), absent::other("0, or another form of the covariance"),
-           "standard deviations along the axes of the frame"},
-          {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),
-           absent::other("another form of the covariance"),
-           "covariance of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2"},
-          {"file", form::words("path of an OEM, OPM or CDM"),
-           absent::other("another form of the covariance"),
-           "whose covariance of the chief's moment is taken, in its own frame: RTN (also RSW, QSW, "
-           "RIC) or the chief's axes; a scene with dates, and the file's state must be that of the "
-           "spacecraft within 6 standard deviations and five digits"},
-          {"object", form::text(),
-           absent::other("the spacecraft's; of a CDM `\"OBJECT1\"`, of a deputy `\"OBJECT2\"`"),
-           "name or identifier in the file, which may then have another name in the scene"}};
+  return {
+      {"position_m", deviations_form(), absent::other("0, or another form of the covariance"),
+       "standard deviations along the axes of the frame, as many as a system of the scene's own "
+       "has "
+       "coordinates"},
+      {"velocity_m_s", deviations_form(), absent::other("0, or another form of the covariance"),
+       "standard deviations along the axes of the frame"},
+      {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),
+       absent::other("another form of the covariance"),
+       "covariance of position and velocity along the axes of the frame: m^2, m^2/s, m^2/s^2; of "
+       "an own system with n coordinates 2 n rows"},
+      {"file", form::words("path of an OEM, OPM or CDM"),
+       absent::other("another form of the covariance"),
+       "whose covariance of the chief's moment is taken, in its own frame: RTN (also RSW, QSW, "
+       "RIC) or the chief's axes; a scene with dates, and the file's state must be that of the "
+       "spacecraft within 6 standard deviations and five digits"},
+      {"object", form::text(),
+       absent::other("the spacecraft's; of a CDM `\"OBJECT1\"`, of a deputy `\"OBJECT2\"`"),
+       "name or identifier in the file, which may then have another name in the scene"}};
 }
 
 /// All coordinates but `auto`.
@@ -114,17 +120,27 @@ constexpr std::string_view of_position = "the chief's distance from the centre";
 constexpr std::string_view of_velocity = "the speed of a circular orbit through the chief";
 
 Limits limits_of(const Nominal& nominal) {
+  if (!nominal.orbit) {
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return {none, none};
+  }
   const CanonicalUnits units = canonical_units(nominal.scale);
   const double distance = Eigen::Vector3d(nominal.state.data()).norm();
   const double length_m = units.length_km * 1000;
   return {distance * length_m, length_m / units.time_s / std::sqrt(distance)};
 }
 
-Covariance read_covariance(const TableReader& table, const Limits& limits, RelativeFrame frame) {
+/// Of a system with fewer coordinates than three the matrix has fewer rows.
+Covariance read_covariance(const TableReader& table, const Limits& limits, RelativeFrame frame,
+                           const SystemSettings& system) {
   constexpr std::string_view key = "covariance_m_m_s";
-  const std::vector<double> entries = table.square_matrix(key, 6);
-  const Matrix<double> matrix =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(entries.data());
+  const std::vector<std::size_t> told = told_components(system);
+  const std::vector<double> entries = table.square_matrix(key, told.size());
+  Matrix<double> matrix = Matrix<double>::Zero(6, 6);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    matrix(static_cast<Eigen::Index>(told[i / told.size()]),
+           static_cast<Eigen::Index>(told[i % told.size()])) = entries[i];
+  }
   const auto names = component_names(frame);
   if (const auto fault = Covariance::fault_of(matrix, names)) table.fail(key, *fault);
   for (Eigen::Index i = 0; i < 6; ++i) {
@@ -224,7 +240,7 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
       table.fail(table.has("position_m") ? "position_m" : "velocity_m_s",
                  "standard deviations beside a covariance, got both, must be one of them");
     }
-    state.covariance = read_covariance(table, limits, state.frame);
+    state.covariance = read_covariance(table, limits, state.frame, scene.system);
     return state;
   }
   if (!has_deviations) {
@@ -236,7 +252,8 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
   const auto read = [&](std::string_view key, double limit, std::string_view what,
                         Eigen::Index place) {
     if (!table.has(key)) return;
-    for (const double deviation : read_deviations(table, key, limit, what)) {
+    for (const double deviation :
+         read_deviations(table, key, limit, what, told_coordinates(scene.system))) {
       deviations[place++] = deviation;
     }
   };
@@ -320,7 +337,14 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
                                      const Nominal& nominal) {
   const TableReader uncertainty = root.table("uncertainty");
   uncertainty.check_keys();
-  require_relative_motion(uncertainty, scene);
+  require_deviations(uncertainty, scene);
+  if (!nominal.orbit) {
+    refuse_keys_of_orbits(
+        uncertainty,
+        {"file", "object", "gaussian_in", "deputy", "collision", "safety", "coordinates",
+         "acceleration_density_m2_s3", "tolerance_m", "most_domains"},
+        "the moments of a start that is Gaussian in them, and flights");
+  }
   UncertaintySettings settings;
   settings.frame = read_covariance_frame(uncertainty, uncertainty, nominal);
   if (uncertainty.has("deputy")) {

@@ -29,7 +29,13 @@ def has_far_deputy(scene):
                > np.linalg.norm(scene.chief[:3]) for state in states)
 
 
+def has_unlike_deputy(scene):
+    return getattr(scene, "deputy_field", scene.field) is not scene.field
+
+
 TRUE = [
+    # Charts other than flow boxes have no parameters in which a deputy could differ.
+    (r"coordinates: of a deputy whose coefficients differ from its chief's", has_unlike_deputy),
     # Charts that the orbit has not.
     (r"no node|equatorial|inclination|no orbital plane", is_flat),
     (r"(deputy|start|deputy\[\d+\]): too far from its chief", has_far_deputy),

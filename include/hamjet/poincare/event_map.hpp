@@ -28,10 +28,10 @@ struct EventMap {
 /// the times of the neighbours are found as series, t -> t - g / g'(0), each iteration with one
 /// step of a Gauss method whose error vanishes to the order.
 ///
-/// `system` is that of an orbit: three positions and three momenta, of second order. Throws
-/// Error(usage) for one that depends on the time, for which the neighbours' times of flight would
-/// have to be its argument; Error(numerical) if the chief's event is not found, or if the flow
-/// touches the condition's surface there, so that the time is no series; and as integrate_gauss.
+/// `system` has three positions and three momenta. Throws Error(usage) for one that depends on the
+/// time, for which the neighbours' times of flight would have to be its argument; Error(numerical)
+/// if the chief's event is not found, or if the flow touches the condition's surface there, so that
+/// the time is no series; and as integrate_gauss.
 template <class Real>
 EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& chief,
                          const ClockTime& start_time, const Real& near, int order,

@@ -11,19 +11,18 @@ Studied<EventStudy> study_condition(const GivenScene& given, const py::object& p
 
 /// The polynomials of the time and of the state at the event, a row a monomial.
 py::dict event_polynomials(const EventStudy& study) {
-  const EventMap<double> told = study.told_map();
+  const FlowJet<double> told = io::told_polynomials(study);
   const CanonicalUnits& units = told_units(study.scene);
-  const SeriesSpace& space = told.time.space();
+  const SeriesSpace& space = told[0].space();
   Table exponents, coefficients;
   for (std::size_t k = 0; k < space.size(); ++k) {
     for (const auto exponent : space.exponents(k)) exponents.add(exponent);
-    coefficients.add(told.time[k]);
-    for (const Series<double>& component : told.state) coefficients.add(component[k]);
+    for (const Series<double>& series : told) coefficients.add(series[k]);
   }
   const auto count = size_of(space.size());
   py::dict polynomials;
-  polynomials["exponents"] = exponents.array({count, 6});
-  polynomials["coefficients"] = coefficients.array({count, 7});
+  polynomials["exponents"] = exponents.array({count, size_of(space.variables())});
+  polynomials["coefficients"] = coefficients.array({count, size_of(told.size())});
   polynomials["length_km"] = units.length_km;
   polynomials["time_unit_s"] = units.time_s;
   return polynomials;

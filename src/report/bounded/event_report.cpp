@@ -12,6 +12,7 @@
 #include "../../store/json_text.hpp"
 #include "../../store/result_table.hpp"
 #include "../../studies/bounded/scene_gauss.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
@@ -36,10 +37,19 @@ std::string condition_text(const EventSettings& event) {
                          event.normal[1], event.normal[2], event.offset_km, way);
     case EventSurface::distance:
       return fmt::format("|r| = {:.10g} km{}", event.distance_km, way);
+    case EventSurface::expression:
+      return event.expression + " = 0" + way;
     case EventSurface::apsis:
       break;
   }
   return "r . v = 0" + way;
+}
+
+std::vector<double> told_components_of_state(const EventStudy& study) {
+  const std::vector<double> all = told_state(study.scene, study.state());
+  std::vector<double> told;
+  for (const std::size_t i : told_components(study.scene.system)) told.push_back(all[i]);
+  return told;
 }
 
 /// The largest amplitude up to which all misses in position are at most a metre.
@@ -117,21 +127,45 @@ std::string event_page(const EventStudy& study, const ReportOrigin& origin, Char
   return page_html(page, drawer);
 }
 
+/// Where the chief meets the event: its position, or all variables of a system of the scene's own.
+std::string place_text(const EventStudy& study) {
+  const std::vector<double> state = study.state();
+  if (is_orbit(study.scene.system.model)) {
+    const double kilometres = study.scene.units.length_km;
+    return fmt::format("({:.9g}, {:.9g}, {:.9g}) km", state[0] * kilometres, state[1] * kilometres,
+                       state[2] * kilometres);
+  }
+  const std::vector<std::string_view> names = variable_names(study.scene.system);
+  std::vector<std::string> values;
+  for (const std::size_t i : told_components(study.scene.system)) {
+    values.push_back(fmt::format("{} = {:.9g}", names[i], state[i]));
+  }
+  return fmt::format("{}", fmt::join(values, ", "));
+}
+
 }  // namespace
 
 std::string event_verdict(const EventStudy& study) {
-  const std::vector<double> state = study.state();
-  const double kilometres = study.scene.units.length_km;
   const std::optional<double> reach = reach_m(study);
   return fmt::format(
-      "The chief meets {} (event {}) after {:.12g} s, at ({:.9g}, {:.9g}, {:.9g}) km. Time and "
-      "state are polynomials of order {} in the initial state; {}.",
+      "The chief meets {} (event {}) after {:.12g} s, at {}. Time and state are polynomials of "
+      "order {} in the initial state; {}.",
       condition_text(*study.scene.event), study.scene.event->number, study.time_s(),
-      state[0] * kilometres, state[1] * kilometres, state[2] * kilometres, study.scene.order,
+      place_text(study), study.scene.order,
       reach ? fmt::format("deputies flown with the full equations are within 1 m of them up to "
                           "deviations of {} at least",
                           length_text(*reach))
             : "no deputy that was flown is within 1 m of them");
+}
+
+FlowJet<double> told_polynomials(const EventStudy& study) {
+  const SystemSettings& system = study.scene.system;
+  const EventMap<double> map = study.told_map();
+  FlowJet<double> told = {in_told_variables(map.time, system)};
+  for (const std::size_t i : told_components(system)) {
+    told.push_back(in_told_variables(map.state[i], system));
+  }
+  return told;
 }
 
 std::vector<TableView> event_tables(const EventStudy& study) {
@@ -147,7 +181,7 @@ std::vector<TableView> event_tables(const EventStudy& study) {
   table.add_scalar("time_canonical", "", "the same time, in the scene's canonical unit of time",
                    told_time(study.scene, study.map.time[0]));
   table.add_scalars("state_canonical", "", "the state of the chief at the event, canonical",
-                    told_state(study.scene, study.state()));
+                    told_components_of_state(study));
   table.add_scalar("position_rounding_m", "m",
                    "the rounding of a flown position: misses below it say nothing",
                    study.position_rounding_m);
@@ -167,12 +201,12 @@ std::vector<TableView> event_tables(const EventStudy& study) {
 }
 
 std::string event_map_csv(const EventStudy& study) {
-  const std::vector<std::string_view> names = variable_names(study.scene.system);
+  const std::vector<std::string_view> all = variable_names(study.scene.system);
+  std::vector<std::string_view> names;
+  for (const std::size_t i : told_components(study.scene.system)) names.push_back(all[i]);
   std::vector<std::string_view> series = {"time"};
   series.insert(series.end(), names.begin(), names.end());
-  const EventMap<double> told = study.told_map();
-  FlowJet<double> map = {told.time};
-  map.insert(map.end(), told.state.begin(), told.state.end());
+  const FlowJet<double> map = told_polynomials(study);
   std::vector<std::size_t> places(names.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   return series_csv(series, names, places, Precision::double_precision, convert_map<Extended>(map));

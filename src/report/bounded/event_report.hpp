@@ -14,6 +14,9 @@ namespace hamjet::io {
 /// The first that a reader sees: when and where the event is, and how far its polynomials hold.
 std::string event_verdict(const EventStudy& study);
 
+/// The polynomials of the time and of the state's told components, in the units that are told.
+FlowJet<double> told_polynomials(const EventStudy& study);
+
 /// A row an amplitude, how far flown deputies are from their polynomials.
 std::vector<TableView> event_tables(const EventStudy& study);
 

@@ -60,6 +60,11 @@ auto of_all(Member member) {
   return [member](const MomentsRow& row) { return std::invoke(member, *row.moments); };
 }
 
+/// How many components the states of a result have.
+Eigen::Index components_of(const UncertaintyResult& result) {
+  return static_cast<Eigen::Index>(state_components(result).size());
+}
+
 /// The moments of `size` components.
 void add_moments(MomentsColumns& table, std::size_t whole, Eigen::Index size) {
   const auto of = [](auto member) { return of_component(&MomentsRow::moments, member); };
@@ -228,7 +233,8 @@ TableView moments_of(const UncertaintyResult& result, const char* name, const ch
   const auto orders = static_cast<std::size_t>(result.scene.order);
   MomentsColumns table(name, "", {"times", "states", "orders", "components"}, meaning);
   add_time(table, result);
-  add_moments(table, 3, 6);
+  const Eigen::Index size = components_of(result);
+  add_moments(table, 3, size);
   add_orders(table, 3);
   std::vector<MomentsRow> rows;
   for (const UncertaintyAt& at : result.points) {
@@ -242,18 +248,20 @@ TableView moments_of(const UncertaintyResult& result, const char* name, const ch
           row.order = n;
           row.linear = &by_order.front();
         }
-        for (; row.index < 6; ++row.index) rows.push_back(row);
+        for (; row.index < size; ++row.index) rows.push_back(row);
       }
     }
   }
-  return std::move(table).view(rows, {result.points.size(), states, orders, 6});
+  return std::move(table).view(
+      rows, {result.points.size(), states, orders, static_cast<std::size_t>(size)});
 }
 
 TableView flown_moments_of(const UncertaintyResult& result) {
   MomentsColumns table("flown", "", {"times", "states", "components"},
                        "Moments of samples that were flown, in the frame of the results.");
   add_time(table, result);
-  add_moments(table, 2, 6);
+  const Eigen::Index size = components_of(result);
+  add_moments(table, 2, size);
   add_scatter(table);
   std::vector<MomentsRow> rows;
   for (const UncertaintyAt& at : result.points) {
@@ -261,11 +269,11 @@ TableView flown_moments_of(const UncertaintyResult& result) {
       MomentsRow row{at.time};
       row.flown = state.flown ? &*state.flown : nullptr;
       row.moments = state.flown ? &state.flown->cumulants : nullptr;
-      for (; row.index < 6; ++row.index) rows.push_back(row);
+      for (; row.index < size; ++row.index) rows.push_back(row);
     }
   }
-  return std::move(table).view(rows,
-                               {result.points.size(), result.points.front().states.size(), 6});
+  return std::move(table).view(rows, {result.points.size(), result.points.front().states.size(),
+                                      static_cast<std::size_t>(size)});
 }
 
 /// The same table for Python alone.
@@ -283,11 +291,13 @@ TableView moments_table(const UncertaintyResult& result) {
   table.leave_rows_out_of_json();
   add_scalars(table, result);
   add_keys(table, result);
-  add_moments(table, 1, 6);
+  const Eigen::Index size = components_of(result);
+  add_moments(table, 1, size);
   add_orders(table, 1);
   add_scatter(table);
   const std::vector<MomentsRow> rows = rows_of_file(result);
-  return std::move(table).view(rows, {rows.size() / 6, 6});
+  const auto count = static_cast<std::size_t>(size);
+  return std::move(table).view(rows, {rows.size() / count, count});
 }
 
 TableView moments_of_polynomials(const Cumulants& moments) {

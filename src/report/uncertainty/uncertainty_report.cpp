@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -85,6 +86,14 @@ std::vector<std::vector<std::string>> gaussian_rows(const UncertaintyResult& res
     }
   }
   return rows;
+}
+
+/// The pairs of components that are drawn against each other: positions, or a coordinate and its
+/// rate where there is no other.
+std::vector<std::array<Eigen::Index, 2>> drawn_planes(const UncertaintyResult& result) {
+  const std::size_t coordinates = state_components(result).size() / 2;
+  if (coordinates < 3) return {{0, 1}};
+  return {{1, 0}, {1, 2}};
 }
 
 /// What each uncertain parameter alone does to a state at the last time, linearly.
@@ -185,7 +194,8 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
   for (const std::string& failed : all_of(sections, &UncertaintySection::failed_checks)) {
     page.verdict += " Check failed: " + failed + ".";
   }
-  Chart first = ellipse_chart(result, last, judged, 1, 0);
+  const std::vector<std::array<Eigen::Index, 2>> planes = drawn_planes(result);
+  Chart first = ellipse_chart(result, last, judged, planes[0][0], planes[0][1]);
   first.is_panel = false;
   fit(first);
   page.first_figure = figure_html(first, drawer);
@@ -205,11 +215,13 @@ std::string page(const UncertaintyResult& result, const ReportOrigin& origin,
     page.sections += section_html(misleading, drawer);
   }
   for (const UncertainState& state : last.states) {
-    std::vector<Chart> charts = {ellipse_chart(result, last, state, 1, 0),
-                                 ellipse_chart(result, last, state, 1, 2)};
+    std::vector<Chart> charts;
+    for (const auto& [across, up] : planes) {
+      charts.push_back(ellipse_chart(result, last, state, across, up));
+    }
     std::vector<Chart> histograms;
-    for (const Eigen::Index component : {0, 1, 2}) {
-      histograms.push_back(histogram_chart(result, last, state, component));
+    for (std::size_t i = 0; i < state_components(result).size() / 2; ++i) {
+      histograms.push_back(histogram_chart(result, last, state, static_cast<Eigen::Index>(i)));
     }
     for (std::vector<Chart>* list : {&charts, &histograms}) {
       for (Chart& chart : *list) fit(chart);

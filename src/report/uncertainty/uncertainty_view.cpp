@@ -8,6 +8,7 @@
 
 #include "../../algebra/symmetric_eigenvalues.hpp"
 #include "../../formats/relative_frame_text.hpp"
+#include "../../studies/formation/charts/free_coordinates.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/time_axis.hpp"
 
@@ -61,7 +62,8 @@ std::optional<Combination> worst_combination(const std::vector<Cumulants>& by_or
   // Eigenvalues ascend; what the linear covariance is too wide in changes probabilities less.
   const Eigen::Index worst = linear.rank() - 1;
   const Vector<double> step = linear.axes() * solver.eigenvectors().col(worst);
-  return Combination{step.head(3).norm(), step.tail(3).norm(),
+  const Eigen::Index half = step.size() / 2;
+  return Combination{step.head(half).norm(), step.tail(half).norm(),
                      std::sqrt(std::max(0.0, solver.eigenvalues()[worst]))};
 }
 
@@ -88,8 +90,10 @@ std::string combinations_text(const std::vector<Cumulants>& by_order, double of_
 
 std::vector<StateComponent> state_components(const UncertaintyResult& result) {
   std::vector<StateComponent> components;
-  for (const std::string_view name : component_names(result.scene.uncertainty->frame)) {
-    components.push_back({std::string(name), components.size() < 3 ? "m" : "m/s"});
+  const SystemSettings& system = result.scene.system;
+  const auto names = component_names(system, result.scene.uncertainty->frame);
+  for (const std::size_t place : told_components(system)) {
+    components.push_back({names[place], place < 3 ? "m" : "m/s"});
   }
   return components;
 }
@@ -166,8 +170,9 @@ double linear_error_of_probability(const std::vector<Cumulants>& by_order) {
 
 double linear_error_of_component(const std::vector<Cumulants>& by_order) {
   double largest = 0;
-  for (Eigen::Index i = 0; i < by_order.front().size(); ++i) {
-    const Matrix<double> component = Matrix<double>::Identity(6, 6).row(i);
+  const Eigen::Index count = by_order.front().size();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Matrix<double> component = Matrix<double>::Identity(count, count).row(i);
     largest = std::max(largest,
                        largest_error_of_probability(divergence_from_gaussian(
                            by_order.back().mapped(component), by_order.front().mapped(component))));
@@ -180,13 +185,16 @@ std::string uncertainty_answer(const UncertaintyResult& result) {
   const UncertainState& state = judged_state(at);
   const Vector<double> deviations = judged_orders(state).back().standard_deviations();
   const std::vector<StateComponent> components = state_components(result);
-  const auto along = [&](std::size_t i) {
-    return fmt::format("{} along {}", length_text(deviations[static_cast<Eigen::Index>(i)]),
-                       components[i].name);
-  };
-  return fmt::format(
-      "After {} the position of {} has the standard deviations {}, {} and {} by order {}.",
-      time_text(result, at), told_state(state), along(0), along(1), along(2), result.scene.order);
+  const std::size_t count = components.size() / 2;
+  std::string along;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) along += i + 1 == count ? " and " : ", ";
+    along += fmt::format("{} along {}", length_text(deviations[static_cast<Eigen::Index>(i)]),
+                         components[i].name);
+  }
+  return fmt::format("After {} the position of {} has the standard deviation{} {} by order {}.",
+                     time_text(result, at), told_state(state), count == 1 ? "" : "s", along,
+                     result.scene.order);
 }
 
 std::string uncertainty_judgement(const UncertaintyResult& result) {
@@ -225,7 +233,7 @@ std::string uncertainty_judgement(const UncertaintyResult& result) {
           "may be wrong by {}{}.",
           name_of(result.coordinates), charted > misleading_probability ? "is not" : "is still",
           charted >= 1 ? "" : "up to ", probability_text(charted));
-    } else if (misleads && !result.scene.system.earth) {
+    } else if (misleads && is_orbit(result.scene.system.model) && !result.scene.system.earth) {
       text += " In flow-box coordinates (jet.coordinates) a distribution stays Gaussian longer.";
     }
   }
@@ -386,8 +394,9 @@ std::vector<std::string> uncertainty_notes(const UncertaintyResult& result) {
     if (change.deviation <= much && change.skewness <= 10 * much) continue;
     notes.push_back(fmt::format(
         "Order {} changes a standard deviation of the {} by {:.2g} and a skewness by {:.2g} at the "
-        "last time: a higher jet.order or other jet.coordinates are needed for moments that hold.",
-        result.scene.order, state.name, change.deviation, change.skewness));
+        "last time: a higher jet.order{} needed for moments that hold.",
+        result.scene.order, state.name, change.deviation, change.skewness,
+        is_orbit(result.scene.system.model) ? " or other jet.coordinates are" : " is"));
   }
   if (settings.samples < 2) notes.push_back("No samples were flown (uncertainty.samples).");
   return notes;

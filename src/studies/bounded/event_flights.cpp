@@ -7,7 +7,9 @@
 #include "../../algebra/state_sums.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/charts/deputy_flows.hpp"
+#include "../formation/charts/free_coordinates.hpp"
 #include "../formation/validity/slice_maxima.hpp"
+#include "../formation_scale.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 
@@ -54,14 +56,20 @@ EventFlights::EventFlights(const Scene& scene, const EventCondition<double>& con
                            const EventMap<double>& map, const EventMap<double>& steering)
     : scene_(scene), condition_(condition), map_(map), system_(make_system(scene)) {
   const Eigen::Vector3d chief(scene.nominal.data());
-  mean_motion_ = std::sqrt(orbit_field(scene).mu / std::pow(chief.norm(), 3));
+  mean_motion_ = is_orbit(scene.system.model)
+                     ? std::sqrt(orbit_field(scene).mu / std::pow(chief.norm(), 3))
+                     : momentum_per_length(scene);
   std::mt19937_64 generator(1);
   std::vector<Vector6> samples;
-  for (std::size_t k = 0; k < random_directions; ++k)
-    samples.push_back(random_coordinates(generator));
+  // Along coordinates that move freely there are no deviations.
+  Vector6 is_told = Vector6::Zero();
+  for (const std::size_t i : told_components(scene.system)) is_told[static_cast<int>(i)] = 1;
+  for (std::size_t k = 0; k < random_directions; ++k) {
+    samples.push_back(random_coordinates(generator).cwiseProduct(is_told));
+  }
   directions_.assign(samples.begin(), samples.begin() + flown_random_directions);
   Matrix<double> variables = Matrix<double>::Identity(6, 6);
-  for (Eigen::Index i = 3; i < 6; ++i) variables(i, i) = mean_motion_;
+  for (Eigen::Index i = 0; i < 6; ++i) variables(i, i) = is_told[i] * (i < 3 ? 1 : mean_motion_);
   SliceMaxima slices({steering.state[0], steering.state[1], steering.state[2]}, variables);
   for (const int degree : {steering.time.space().order(), 2}) {
     const std::vector<Vector6> maxima = slices.maxima(samples, degree);

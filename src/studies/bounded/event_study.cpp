@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -15,10 +16,13 @@
 #include "../exact_flow.hpp"
 #include "../flights/manoeuvred_flight.hpp"
 #include "../formation/charts/deputy_flows.hpp"
+#include "../formation/charts/free_coordinates.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "event_flights.hpp"
 #include "hamjet/algebra/elementary_functions.hpp"
+#include "hamjet/detail/dynamics/differentiable_function.hpp"
+#include "hamjet/dynamics/relative_hamiltonian.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/integrators/jet_trajectory.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -143,19 +147,19 @@ class EventSearch {
 /// that of the map less what the time's change adds along the chief's motion.
 double rounding_at(const EventStudy& study) {
   const State end = study.state();
-  const double mu = canonical_mu;
-  const double distance = std::hypot(end[0], end[1], end[2]);
+  DifferentiableFunction<double> field(make_system(study.scene).vector_field);
+  field.evaluate(end);
   Matrix<double> linear(6, 6);
   for (std::size_t i = 0; i < 6; ++i) {
-    // Of the size, for which the field of the centre will do.
-    const double motion = i < 3 ? end[3 + i] : -mu * end[i - 3] / std::pow(distance, 3);
+    const double motion = field.values()[static_cast<Eigen::Index>(i)];
     for (std::size_t j = 0; j < 6; ++j) {
       linear(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           study.map.state[i][1 + j] - motion * study.map.time[1 + j];
     }
   }
-  return rounding_of_flights(linear, study.scene.nominal, end,
-                             natural_momentum_exponent(true, study.scene.nominal));
+  return rounding_of_flights(
+      linear, study.scene.nominal, end,
+      natural_momentum_exponent(is_orbit(study.scene.system.model), study.scene.nominal));
 }
 
 }  // namespace
@@ -176,6 +180,35 @@ EventMap<double> EventStudy::told_map() const {
   return result;
 }
 
+FunctionText event_function(const Scene& scene) {
+  FunctionText function;
+  for (const std::string_view name : variable_names(scene.system)) {
+    function.variables.emplace_back(name);
+  }
+  if (scene.system.own_text) {
+    function.parameters = scene.system.own_text->parameters;
+    function.definitions = scene.system.own_text->definitions;
+  }
+  function.outputs = {{"expression", scene.event->expression}};
+  return function;
+}
+
+namespace {
+
+EventCondition<double> condition_of_expression(const Scene& scene) {
+  const CanonicalFactors told = told_factors(scene);
+  const auto list = std::make_shared<const OperationList>(record_function(event_function(scene)));
+  return [told, list](const SixNumbers<Series<double>>& z) {
+    std::vector<Series<double>> inputs;
+    for (std::size_t i = 0; i < 6; ++i) {
+      inputs.push_back(z[i] * (i < 3 ? told.length : told.momentum));
+    }
+    return evaluate_on_series<double>(*list, inputs)[0];
+  };
+}
+
+}  // namespace
+
 EventCondition<double> event_condition(const Scene& scene) {
   using Z = SixNumbers<Series<double>>;
   const EventSettings& event = *scene.event;
@@ -195,20 +228,24 @@ EventCondition<double> event_condition(const Scene& scene) {
         height[0] -= distance;
         return height;
       };
+    case EventSurface::expression:
+      return condition_of_expression(scene);
     case EventSurface::apsis:
       break;
   }
   return [](const Z& z) { return z[0] * z[3] + z[1] * z[4] + z[2] * z[5]; };
 }
 
-EventStudy study_event(const Scene& scene, const ProgressCallback& progress) {
-  require_coasting(scene);
-  require_formation_problem(scene, scene.event.has_value(), "event");
+EventStudy study_event(const Scene& asked, const ProgressCallback& progress) {
+  require_coasting(asked);
+  require_deviation_problem(asked, asked.event.has_value(), "event");
+  const Scene scene = with_free_coordinates(asked);
   if (!make_system(scene).is_autonomous()) {
     throw Error(
         ErrorKind::scene,
-        "event: the model's forces depend on the time, and the times of neighbours would be "
-        "no argument of theirs; must be zonal-gravity or kepler");
+        fmt::format("event: the model's forces depend on the time, and the times of neighbours "
+                    "would be no argument of theirs; must be {}",
+                    is_orbit(scene.system.model) ? "zonal-gravity or kepler" : "without the time"));
   }
   const EventCondition<double> condition = event_condition(scene);
   if (progress) progress("event", 0);

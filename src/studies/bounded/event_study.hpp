@@ -6,6 +6,7 @@
 
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/detail/studies/self_checks.hpp"
+#include "hamjet/dynamics/expression_text.hpp"
 #include "hamjet/poincare/event_map.hpp"
 #include "hamjet/studies/scene.hpp"
 
@@ -26,7 +27,7 @@ struct EventMisses {
 
 /// An event of a scene's chief, and those of its neighbours as polynomials.
 struct EventStudy {
-  Scene scene;
+  Scene scene;  ///< with three coordinates, see with_free_coordinates
   EventMap<double> map;
   double position_rounding_m = 0;   ///< rounding of a flown position: a smaller miss says nothing
   int flown = 0;                    ///< deputies of each amplitude
@@ -37,6 +38,9 @@ struct EventStudy {
   std::vector<double> state() const;  ///< the chief's state at the event, canonical
   EventMap<double> told_map() const;  ///< in the units that the user is told, see told_units
 };
+
+/// The text of the condition of a scene's event that is an expression.
+FunctionText event_function(const Scene& scene);
 
 /// The condition of a scene's event.
 EventCondition<double> event_condition(const Scene& scene);

@@ -11,9 +11,9 @@ namespace hamjet {
 
 /// What serves a system that a scene writes in place of the studies of orbits.
 inline constexpr std::string_view studies_of_own_systems =
-    "for equations of one's own `hamjet transfer` and `hamjet validity` have the deputies of a "
-    "Hamiltonian, along its coordinates, `hamjet periodic` its periodic orbits, and `hamjet run` "
-    "the polynomials of any system";
+    "for equations of one's own `hamjet transfer`, `hamjet validity` and `hamjet uncertainty` have "
+    "the deviations of a Hamiltonian, along its coordinates, `hamjet periodic` its periodic "
+    "orbits, `hamjet poincare` its events, and `hamjet run` the polynomials of any system";
 
 /// Throws Error(scene) unless a study of formation flight can be made on the scene: it needs the
 /// study's table, an orbit, all variables, double precision and a symplectic integrator.

@@ -11,6 +11,7 @@
 
 #include "../checks/flight_checks.hpp"
 #include "../formation/charts/deputy_flows.hpp"
+#include "../formation/charts/free_coordinates.hpp"
 #include "../formation/formation_problem.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../nominal/nominal_period.hpp"
@@ -204,10 +205,11 @@ double divergence_from_linear(const std::vector<Cumulants>& by_order) {
   return divergence_from_gaussian(by_order.back(), by_order.front());
 }
 
-UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& progress,
+UncertaintyResult study_uncertainty(const Scene& asked, const ProgressCallback& progress,
                                     std::size_t threads) {
-  require_formation_problem(scene, scene.uncertainty.has_value(), "uncertainty");
-  require_states_alone(scene, "uncertainty");
+  require_deviation_problem(asked, asked.uncertainty.has_value(), "uncertainty");
+  require_states_alone(asked, "uncertainty");
+  const Scene scene = with_free_coordinates(asked);
   require_sample_memory(scene);
   const UncertaintySettings& settings = *scene.uncertainty;
   // Before anything is computed that they would follow.
@@ -216,6 +218,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
   UncertaintyResult result;
   result.scene = scene;
   const MetricUnits units = metric_units(scene);
+  const std::vector<std::size_t> told = told_components(scene.system);
   const std::vector<InitialState> starts = initial_states(scene);
   for (const InitialState& start : starts) {
     if (!start.why_straight.empty()) result.start_notes.push_back(start.why_straight);
@@ -293,7 +296,7 @@ UncertaintyResult study_uncertainty(const Scene& scene, const ProgressCallback& 
     std::vector<double> chief;
     for (const Series<double>& component : jet) chief.push_back(component[0]);
     const Matrix<double> to_frame =
-        relative_states_of_deviations(ChiefFrame(chief, units, settings.frame));
+        relative_states_of_deviations(ChiefFrame(chief, units, settings.frame))(told, Eigen::all);
     std::optional<Covariance> added;
     if (noise) added = noise->at(time);
     if (!flights.empty()) flown_chief.advance_to(time, {});

@@ -53,7 +53,7 @@ struct UncertaintyDomains {
 
 /// The distribution of one spacecraft's state at one time, or of the difference of two. All
 /// distributions of states are of deviations from the chief's nominal, metres and metres a second
-/// along the frame's axes at the time; by the orders 1..N.
+/// along the frame's axes at the time, six or those of told_components; by the orders 1..N.
 struct UncertainState {
   std::string name;  ///< "chief", "deputy" or "relative", the deputy less the chief
   std::vector<Cumulants>
@@ -70,7 +70,7 @@ struct UncertainState {
   /// scene has no other coordinates.
   std::vector<Cumulants> charted;
   std::optional<FlownMoments> flown;
-  Matrix<double> flown_states;  ///< columns of six numbers; 6 x 0 without flights
+  Matrix<double> flown_states;  ///< columns of components; none without flights
 };
 
 struct UncertaintyAt {

@@ -198,8 +198,9 @@ struct BoundedSettings {
 };
 
 /// A function of the state whose zeros are events: the height above the equator, the height above a
-/// plane, the distance from the centre minus a radius, or the product of position and velocity.
-enum class EventSurface { equator, plane, distance, apsis };
+/// plane, the distance from the centre minus a radius, the product of position and velocity, or an
+/// expression in the names of the scene's variables.
+enum class EventSurface { equator, plane, distance, apsis, expression };
 /// Whether the function grows or falls with time at the event.
 enum class EventDirection { either, rising, falling };
 
@@ -209,6 +210,7 @@ struct EventSettings {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< normal of a plane, in inertial axes
   double offset_km = 0;    ///< distance of a plane from the centre, along its normal
   double distance_km = 0;  ///< radius for `distance`
+  std::string expression;  ///< for `expression`, of the variables in the units that are told
   EventDirection direction = EventDirection::either;
   int number = 1;  ///< number of the event, among those that the chief meets after its start
   /// Sizes of the position deviations of the deputies that are flown.

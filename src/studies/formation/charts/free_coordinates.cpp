@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "hamjet/error.hpp"
+#include "hamjet/uncertainty/covariance.hpp"
 
 namespace hamjet {
 namespace {
@@ -33,6 +34,27 @@ std::string unused_name(const SystemText& text, std::string name) {
 std::size_t told_coordinates(const SystemSettings& system) {
   if (!system.own_text || !system.own_text->is_hamiltonian()) return served_coordinates;
   return std::min(served_coordinates, system.own_text->coordinates.size());
+}
+
+std::array<std::string, 6> component_names(const SystemSettings& system, RelativeFrame frame) {
+  std::array<std::string, 6> names;
+  const auto usual = component_names(frame);
+  std::copy(usual.begin(), usual.end(), names.begin());
+  if (frame != RelativeFrame::coordinates || !system.own_text) return names;
+  const std::vector<std::string>& own = system.own_text->coordinates;
+  for (std::size_t i = 0; i < std::min(served_coordinates, own.size()); ++i) {
+    names[i] = own[i];
+    names[served_coordinates + i] = "v" + own[i];
+  }
+  return names;
+}
+
+std::vector<std::size_t> told_components(const SystemSettings& system) {
+  std::vector<std::size_t> places;
+  for (const std::size_t first : {std::size_t{0}, served_coordinates}) {
+    for (std::size_t i = 0; i < told_coordinates(system); ++i) places.push_back(first + i);
+  }
+  return places;
 }
 
 Scene with_free_coordinates(Scene scene) {
@@ -86,6 +108,19 @@ FlowJet<double> with_free_coordinates(const FlowJet<double>& jet, double time) {
     result[q][space->linear_index(q)] = 1;
     result[q][space->linear_index(p)] = time;
     result[p][space->linear_index(p)] = 1;
+  }
+  return result;
+}
+
+Series<double> in_told_variables(const Series<double>& series, const SystemSettings& system) {
+  const std::vector<std::size_t> told = told_components(system);
+  if (told.size() == series.space().variables()) return series;
+  const SpacePointer space = SeriesSpace::create(told.size(), series.order());
+  Series<double> result(space);
+  for (std::size_t k = 0; k < space->size(); ++k) {
+    std::array<std::uint8_t, 2 * served_coordinates> exponents{};
+    for (std::size_t v = 0; v < told.size(); ++v) exponents[told[v]] = space->exponents(k)[v];
+    result[k] = series[series.space().index(exponents)];
   }
   return result;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../charts/free_coordinates.hpp"
 #include "hamjet/detail/algebra/monomial_values.hpp"
-#include "hamjet/uncertainty/covariance.hpp"
 
 namespace hamjet {
 namespace {
@@ -63,26 +63,12 @@ Columns6 deviation_by_values(DeputyPredictor& predictor, const SixNumbers<double
   return result;
 }
 
-/// The components of a deviation along the frame: of a system that the scene writes its coordinates
-/// and, with a v before the name, their rates.
-std::vector<std::string> told_components(RelativeFrame frame, const SystemSettings& system) {
-  const auto usual = component_names(frame);
-  std::vector<std::string> names(usual.begin(), usual.end());
-  if (frame != RelativeFrame::coordinates || !system.own_text) return names;
-  const std::vector<std::string>& own = system.own_text->coordinates;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, own.size()); ++i) {
-    names[i] = own[i];
-    names[3 + i] = "v" + own[i];
-  }
-  return names;
-}
-
 }  // namespace
 
 LimitCoordinates limit_coordinates(const DeputyFlowPropagation& propagation, const DeputyFlow& flow,
                                    RelativeFrame frame, const SystemSettings& system) {
   const CoordinatesAtEnds& ends = propagation.coordinates();
-  const std::vector<std::string> components = told_components(frame, system);
+  const auto components = component_names(system, frame);
   LimitCoordinates names;
   names.start = propagation.variable_names();
   names.end = propagation.value_names();
