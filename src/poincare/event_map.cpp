@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,26 +19,26 @@ SixNumbers<Series<Real>> six_of(const FlowJet<Real>& jet) {
   return {jet[0], jet[1], jet[2], jet[3], jet[4], jet[5]};
 }
 
-/// Distance and speed at a state: positions and momenta have units of their own.
+/// Distance and speed at a state that moves along the flow, a series of the time: positions and
+/// momenta have units of their own. Where a system turns round it is at rest, so that the speed is
+/// at least that which its force gives it over the distance.
 template <class Real>
 struct StateSizes {
-  explicit StateSizes(const SixNumbers<Series<Real>>& z) {
+  explicit StateSizes(const SixNumbers<Series<Real>>& flown) {
     using std::sqrt;
-    const auto norm = [&](std::size_t i) {
-      return Real(
-          sqrt(Real(z[i][0] * z[i][0] + z[i + 1][0] * z[i + 1][0] + z[i + 2][0] * z[i + 2][0])));
+    const auto norm = [&](std::size_t i, std::size_t power) {
+      Real sum = 0;
+      for (std::size_t k = i; k < i + 3; ++k) sum += flown[k][power] * flown[k][power];
+      return Real(sqrt(sum));
     };
-    distance = norm(0);
-    speed = norm(3);
+    distance = norm(0, 0);
+    speed = std::max(norm(3, 0), Real(sqrt(Real(norm(0, 0) * norm(3, 1)))));
     // At rest, or at the origin, nothing else is there to measure by.
     if (!(speed > Real(0))) speed = Real(1);
     if (!(distance > Real(0))) distance = Real(1);
   }
 
   Real of(std::size_t place) const { return place < 3 ? distance : speed; }
-  /// A time in which the state changes by about its own size.
-  Real time() const { return distance / speed; }
-
   Real distance;
   Real speed;
 };
@@ -49,6 +50,7 @@ struct Crossing {
   Real value;
   Real slope;
   Real sine;
+  Real time;  ///< in which the state changes by about its own size
 };
 
 template <class Real>
@@ -65,7 +67,7 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
       Series<Real>::variable(line, 0));
   const Series<Real> value = condition(flown);
   const Series<Real> nearby = condition({one(0), one(1), one(2), one(3), one(4), one(5)});
-  const StateSizes<Real> sizes(z);
+  const StateSizes<Real> sizes(flown);
   Real gradient = 0;
   Real speed = 0;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -74,7 +76,8 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
     gradient += slope * slope;
     speed += rate * rate;
   }
-  return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed))};
+  return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed)),
+          sizes.distance / sizes.speed};
 }
 
 }  // namespace
@@ -123,7 +126,7 @@ EventMap<Real> event_map(const DynamicalSystem& system, const SixNumbers<Real>& 
     const Crossing<Real> at = crossing_at(crossing, six_of(*flow.initial_jet), condition);
     rate = at.slope;
     const Real step = -at.value / at.slope;
-    const Real scale = abs(near) + StateSizes<Real>(six_of(*flow.initial_jet)).time();
+    const Real scale = abs(near) + at.time;
     // At a smaller angle the time of a neighbour is no series but next to the chief.
     constexpr double least_sine = 1e-6;
     if (!(at.sine > Real(least_sine))) {

@@ -329,7 +329,7 @@ RelativeState read_place(const TableReader& table, const Nominal& nominal) {
 }
 
 ValueForm deviations_form() {
-  return form::words("array of 3, each 0 or above", form::array(form::number()));
+  return form::words("array of 3, each 0 or above", form::array(form::number(), 3));
 }
 
 std::vector<double> read_deviations(const TableReader& table, std::string_view key, double limit,

@@ -62,6 +62,27 @@ def test_a_pendulum_has_its_generating_function_and_its_pickle():
     assert jet.invert_partially("F1").exactness["scaled"].max() < 1e-12
 
 
+def test_an_oscillator_has_moments_and_events():
+    system = hamjet.system(lambda q, p: (p**2 + q**2) / 2, coordinates="q")
+    tables = {"uncertainty": {"position_m": [0.3], "velocity_m_s": [0.4], "samples": 50}}
+    moments = hamjet.uncertainty(system.scene({"q": 1}, duration=2, order=2, tables=tables))
+    s = np.array([0.3, 0.4])
+    turn = np.array([[math.cos(2), math.sin(2)], [-math.sin(2), math.cos(2)]])
+    assert moments.cartesian.standard_deviation[0, 0, -1] == pytest.approx(
+        np.sqrt(turn**2 @ s**2), abs=1e-12)
+    assert moments.flown_states(0, 0).shape == (50, 2)
+    tables = {"event": {"surface": "expression", "expression": "q - 0.5"}}
+    event = hamjet.event(system.scene({"q": 1}, duration=2, order=8, tables=tables))
+    # (1 + dq) cos t + dp sin t = 1/2, of the amplitude A: t = acos(1/(2 A)) + atan2(dp, 1 + dq).
+    dq, dp = 0.02, -0.03
+    time = math.acos(0.5 / math.hypot(1 + dq, dp)) + math.atan2(dp, 1 + dq)
+    told = event.evaluate([dq, dp])
+    assert told[0] == pytest.approx(time, abs=1e-11)
+    assert told[1] == pytest.approx(0.5, abs=1e-11)
+    with pytest.raises(hamjet.UsageError, match="2 numbers a row"):
+        event.evaluate([0, 0, 0])
+
+
 def test_a_vector_field_is_that_of_a_damped_oscillator():
     system = hamjet.system(vector_field=lambda x, c: [x[1], -x[0] - 2 * c * x[1]], states="u v",
                            parameters={"c": 0.1})

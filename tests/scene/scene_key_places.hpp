@@ -164,6 +164,7 @@ inline const std::map<std::string, Place>& special_places() {
       {"event.surface", {"", {}, "\"apsis\""}},
       {"event.normal", {"", {{"event.surface", "\"plane\""}}}},
       {"event.offset_km", {"", {{"event.surface", "\"plane\""}, {"event.normal", "[1, 2, 3]"}}}},
+      {"event.expression", {"", {{"event.surface", "\"expression\""}}, "\"x\""}},
       {"event.distance_km", {"", {{"event.surface", "\"distance\""}}}},
       {"periodic.hold", {"", {}, "\"theta\""}},
       {"periodic.family.along", {"", {}, "\"energy\""}},

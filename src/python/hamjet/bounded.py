@@ -29,12 +29,13 @@ class FrozenOrbit(Study, table="poincare"):
 class Event(Study, table="event"):
     """When a condition holds along an orbit, and where, as polynomials; immutable.
 
-    Of the M monomials of the deviations (x, y, z, px, py, pz) of the initial state, in canonical
-    units: with ``time_unit_s`` and ``length_km`` the units of time and length.
+    Of the M monomials of the V deviations of the initial state, in canonical units: with
+    ``time_unit_s`` and ``length_km`` the units of time and length. They are x, y, z, px, py, pz of
+    an orbit (V = 6), and the coordinates and momenta of a system of one's own.
     """
 
-    exponents: Floats  #: (M, 6): of each monomial
-    coefficients: Floats  #: (M, 7): of the time, and of x, y, z, px, py, pz at the event
+    exponents: Floats  #: (M, V): of each monomial
+    coefficients: Floats  #: (M, 1 + V): of the time, and of the state at the event
     length_km: float  #: the canonical unit of length
     time_unit_s: float  #: the canonical unit of time
 
@@ -45,26 +46,27 @@ class Event(Study, table="event"):
     def evaluate(self, deviations: npt.ArrayLike) -> Floats:
         """Time and state of neighbours, canonical.
 
-        ``deviations`` of the initial state, canonical, shape (6,) or (K, 6). Returns (7,) or
-        (K, 7): time, x, y, z, px, py, pz. Raises UsageError for other shapes.
+        ``deviations`` of the initial state, canonical, shape (V,) or (K, V). Returns (1 + V,) or
+        (K, 1 + V): the time, and the state. Raises UsageError for other shapes.
         """
+        count = self.exponents.shape[1]
         try:
             points = np.asarray(deviations, dtype=float)
         except (TypeError, ValueError) as error:
             raise UsageError(f"deviations: not numbers: {error}") from None
-        if points.ndim not in (1, 2) or points.shape[-1] != 6:
-            raise UsageError(f"deviations: no array of six numbers a row, got the shape "
-                             f"{points.shape}, must be (6,) or (K, 6)")
+        if points.ndim not in (1, 2) or points.shape[-1] != count:
+            raise UsageError(f"deviations: no array of {count} numbers a row, got the shape "
+                             f"{points.shape}, must be ({count},) or (K, {count})")
         if not np.isfinite(points).all():
             raise UsageError("deviations: not finite, must be finite numbers")
-        rows = points.reshape(-1, 6)
+        rows = points.reshape(-1, count)
         values = np.empty((len(rows), self.coefficients.shape[1]))
         exponents = self.exponents.astype(int)
         for first in range(0, len(rows), 4096):  # of which the monomials fit a cache
             part = rows[first:first + 4096]
             powers = part[:, :, None] ** np.arange(exponents.max() + 1)
             monomials = powers[:, 0, exponents[:, 0]]
-            for variable in range(1, 6):
+            for variable in range(1, count):
                 monomials *= powers[:, variable, exponents[:, variable]]
             values[first:first + 4096] = monomials @ self.coefficients
         return values.reshape((*points.shape[:-1], -1))

@@ -92,6 +92,8 @@ double asked_length_m(const UncertaintySettings& settings) {
 /// `covariance` is that of the state, which the errors of a burn do not belong to.
 void choose_coordinates(const Scene& scene, const Covariance& covariance, InitialState& start) {
   const UncertaintySettings& settings = *scene.uncertainty;
+  // Without an orbit there are no elements.
+  if (!is_orbit(scene.system.model)) return;
   if (settings.gaussian_in == GaussianIn::positions || covariance.rank() == 0) return;
   const Vector<double> state = as_vector(scene.nominal) + start.mean;
   const MetricUnits units = metric_units(scene);

@@ -324,10 +324,14 @@ UncertaintyResult study_uncertainty(const Scene& asked, const ProgressCallback& 
         if (added) add_noise(state.flown_states, *added, normals);
         state.flown_states = to_frame * state.flown_states;
         if (!state.flown_states.allFinite()) {
-          throw Error(ErrorKind::numerical,
-                      fmt::format("uncertainty: a sample of the {} flew into the centre before "
-                                  "{:.6g} s; the covariance is too large for its orbit",
-                                  state.name, time * units.time_s));
+          throw Error(
+              ErrorKind::numerical,
+              fmt::format("uncertainty: a sample of the {} flew {} before {:.6g} s; the "
+                          "covariance is too large for its {}",
+                          state.name,
+                          is_orbit(scene.system.model) ? "into the centre"
+                                                       : "where its equations have no value",
+                          time * units.time_s, is_orbit(scene.system.model) ? "orbit" : "motion"));
         }
         state.flown = flown_moments(state.flown_states);
         const std::optional<double>& volume = state.cartesian.front().gaussian_log_volume();

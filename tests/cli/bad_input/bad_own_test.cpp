@@ -99,7 +99,24 @@ TEST_F(BadOwn, WhatHasNoValueIsOneLine) {
 TEST_F(BadOwn, StudiesAreOneLine) {
   const auto table = [](const string& text) { return text + "\n[nominal]"; };
   const std::vector<Mistake> mistakes = {
-      {"[nominal]", table("[event]\nsurface = \"apsis\""), {"event: ", "must be an orbit"}},
+      {"[nominal]",
+       table("[event]\nsurface = \"apsis\""),
+       {"event.surface: of an orbit, got", "must be \"expression\""}},
+      {"[nominal]",
+       table("[event]\nsurface = \"expression\""),
+       {"event.expression: missing", "must be a string"}},
+      {"[nominal]",
+       table("[event]\nsurface = \"expression\"\nexpression = \"x - q\""),
+       {"event.expression", "\"q\" at column 5", "must be one of"}},
+      {"[nominal]",
+       table("[event]\nsurface = \"expression\"\nexpression = \"x - t\""),
+       {"event.expression: depends on the time"}},
+      {"[nominal]",
+       table("[uncertainty]\nposition_m = [1, 1, 1]"),
+       {"uncertainty.position_m: wrong length", "must be an array of 2"}},
+      {"[nominal]",
+       table("[uncertainty]\nposition_m = [1, 1]\ncollision = { radius_m = 1 }"),
+       {"uncertainty.collision: for spacecraft in an orbit", "must be left out"}},
       {"[nominal]", table("[periodic]\nhold = \"z\""), {"periodic.hold", "energy, period, x"}},
       {"[nominal]", table("[periodic]\narcs = 0"), {"periodic.arcs", "from 1 to 64"}},
       {"[nominal]",
@@ -111,7 +128,7 @@ TEST_F(BadOwn, StudiesAreOneLine) {
       {"[nominal]", table("[periodic.family]\nalong = \"x\""), {"periodic.family.to: missing"}},
       {"duration_canonical = 1", "duration_canonical = -1\n[periodic]", {"periodic: no guess"}},
       {"duration_canonical = 1", "duration_orbits = 1", {"jet.duration_orbits", "no key"}}};
-  ASSERT_EQ(mistakes.size(), 8U);
+  ASSERT_EQ(mistakes.size(), 13U);
   expect_each_refused(own_scene, mistakes);
   // An orbit that closes at one time does not at another where the forces change.
   expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",
@@ -121,15 +138,15 @@ TEST_F(BadOwn, StudiesAreOneLine) {
 // What a study of orbits lacks is not asked for, since it would be refused.
 TEST_F(BadOwn, StudiesOfOrbitsNameWhatServesInstead) {
   write("own.toml", own_scene);
-  for (const char* const command : {"motion", "assign", "uncertainty", "bounded"}) {
+  for (const char* const command : {"motion", "assign", "bounded"}) {
     SCOPED_TRACE(command);
     expect_error({command, "own.toml"}, 3,
                  {string("own.toml: system.model: `hamjet ") + command + "` is about orbits, got",
-                  "\"own\"", "`hamjet transfer` and `hamjet validity`"});
+                  "\"own\"", "`hamjet transfer`, `hamjet validity` and `hamjet uncertainty`"});
   }
   write("deputy.toml", own_scene + "[deputy]\nposition_m = [1, 0]\n");
   expect_error({"motion", "deputy.toml"}, 3,
-               {"deputy: not available for this model", "`hamjet transfer` and `hamjet validity`"});
+               {"deputy: not available for this model", "`hamjet transfer`, `hamjet validity`"});
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "hamjet/studies/propagation.hpp"
 #include "hamjet/studies/transfer.hpp"
 #include "hamjet/studies/validity.hpp"
-#include "periodic/independent_halo.hpp"
+#include "../periodic/independent_halo.hpp"
 #include "support/errors.hpp"
 
 // Transfers and reach along the coordinates of systems without an orbit.
