@@ -254,6 +254,11 @@ std::vector<std::string_view> commands_of(const Scene& scene) {
 void require_table(const StudyDescription& study, const Scene& scene, const std::string& file) {
   const std::string name = printable(file, std::string::npos);
   if (study.needs_orbit && !is_orbit(scene.system.model)) {
+    // Without an orbit the command may have another study, which lacks its table.
+    for (const StudyDescription& other : descriptions) {
+      if (other.command != study.command || other.needs_orbit || other.has_table(scene)) continue;
+      return require_table(other, scene, file);
+    }
     throw Error(ErrorKind::scene,
                 fmt::format("{}: system.model: `hamjet {}` is about orbits, got \"{}\", must be "
                             "\"earth\", \"zonal-gravity\" or \"kepler\"; {}",

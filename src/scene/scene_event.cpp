@@ -38,13 +38,13 @@ const TableDescription& event_table() {
        {"distance_km", form::positive(), absent::other("required with `distance`, refused without"),
         "distance from the centre"},
        {"direction", form::choice({"either", "rising", "falling"}), absent::value("either"),
-        "whether the height, the distance less `distance_km` or the product grows or falls with "
-        "time at the event"},
+        "whether what vanishes grows or falls with time at the event"},
        {"number", form::integer(1, most_events), absent::value(preset.number),
         "number of the event, counted after the chief's start, within `jet.duration`"},
        {"amplitudes_m", form::array(form::positive()), absent::value(preset.amplitudes_m),
         "distances from the chief of deputies that are flown to see how far the polynomials hold; "
-        "their velocities differ by as much times the mean motion"}},
+        "their velocities differ by as much times the mean motion. Those of an own system without "
+        "it are powers of ten from 5e-8 to 0.05 of the size of its nominal"}},
       "A condition along the orbit: the time at which it holds and the state then, as polynomials "
       "of the initial state. If the condition is a surface that the orbit comes back to, these "
       "polynomials are its Poincaré map."};
@@ -58,8 +58,13 @@ void read_expression(const TableReader& event, Scene scene, EventSettings& setti
   settings.expression = event.text(key);
   scene.event = settings;
   try {
-    if (record_function(event_function(scene)).has_time()) {
+    const OperationList list = record_function(event_function(scene));
+    if (list.has_time()) {
       event.fail(key, "depends on the time, got t in it, must be of variables alone");
+    }
+    if (list.outputs()[0] < list.first_series_value() && list.outputs()[0] >= list.inputs()) {
+      event.fail(key, fmt::format("the same everywhere, got {}, must depend on the variables",
+                                  event.found(key)));
     }
   } catch (const ExpressionTextError& error) {
     event.fail(key, error.problem());
@@ -101,7 +106,7 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
   if (!event.has("amplitudes_m")) {
     if (!is_orbit(scene.system.model)) {
       settings.amplitudes_m.clear();
-      for (const double part : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+      for (const double part : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
         settings.amplitudes_m.push_back(part * most_m);
       }
     }

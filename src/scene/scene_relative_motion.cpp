@@ -26,8 +26,8 @@ double canonical_time(const TableReader& table, std::string_view key, double giv
   if (key.ends_with("_canonical")) return nominal.time_of_canonical(given);
   if (!nominal.period_s) {
     const std::string_view stem = key.substr(0, key.find('_'));
-    table.fail(key, fmt::format("no period, got {} of an orbit that is not elliptic, must be "
-                                "{}_s or {}_canonical",
+    table.fail(key, fmt::format("no period, got {} of a nominal that is no ellipse, must be {}_s "
+                                "or {}_canonical",
                                 table.found(key), stem, stem));
   }
   return convert<double>(Extended(given) * *nominal.period_s / nominal.scale.time_s);

@@ -141,7 +141,9 @@ Covariance read_covariance(const TableReader& table, const Limits& limits, Relat
     matrix(static_cast<Eigen::Index>(told[i / told.size()]),
            static_cast<Eigen::Index>(told[i % told.size()])) = entries[i];
   }
-  const auto names = component_names(frame);
+  const auto own_names = component_names(system, frame);
+  std::array<std::string_view, 6> names;
+  std::copy(own_names.begin(), own_names.end(), names.begin());
   if (const auto fault = Covariance::fault_of(matrix, names)) table.fail(key, *fault);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double deviation = std::sqrt(matrix(i, i));

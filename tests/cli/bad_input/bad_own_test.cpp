@@ -112,6 +112,9 @@ TEST_F(BadOwn, StudiesAreOneLine) {
        table("[event]\nsurface = \"expression\"\nexpression = \"x - t\""),
        {"event.expression: depends on the time"}},
       {"[nominal]",
+       table("[event]\nsurface = \"expression\"\nexpression = \"mu*2\""),
+       {"event.expression: the same everywhere", "must depend on the variables"}},
+      {"[nominal]",
        table("[uncertainty]\nposition_m = [1, 1, 1]"),
        {"uncertainty.position_m: wrong length", "must be an array of 2"}},
       {"[nominal]",
@@ -128,7 +131,7 @@ TEST_F(BadOwn, StudiesAreOneLine) {
       {"[nominal]", table("[periodic.family]\nalong = \"x\""), {"periodic.family.to: missing"}},
       {"duration_canonical = 1", "duration_canonical = -1\n[periodic]", {"periodic: no guess"}},
       {"duration_canonical = 1", "duration_orbits = 1", {"jet.duration_orbits", "no key"}}};
-  ASSERT_EQ(mistakes.size(), 13U);
+  ASSERT_EQ(mistakes.size(), 14U);
   expect_each_refused(own_scene, mistakes);
   // An orbit that closes at one time does not at another where the forces change.
   expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",
@@ -144,6 +147,8 @@ TEST_F(BadOwn, StudiesOfOrbitsNameWhatServesInstead) {
                  {string("own.toml: system.model: `hamjet ") + command + "` is about orbits, got",
                   "\"own\"", "`hamjet transfer`, `hamjet validity` and `hamjet uncertainty`"});
   }
+  expect_error({"poincare", "own.toml"}, 3,
+               {"own.toml: event: missing, must be a table [event]", "expression = \"x\""});
   write("deputy.toml", own_scene + "[deputy]\nposition_m = [1, 0]\n");
   expect_error({"motion", "deputy.toml"}, 3,
                {"deputy: not available for this model", "`hamjet transfer`, `hamjet validity`"});

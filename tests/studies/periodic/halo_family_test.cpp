@@ -54,6 +54,22 @@ void expect_like(const PeriodicOrbit& orbit, const test::IndependentHalo& own) {
   EXPECT_LT(orbit.monodromy.determinant_defect, 1e-7);
 }
 
+// The shipped formation's telescope: its scene has the Earth at the origin.
+TEST(HaloFamily, TheOrbitAboutTheSunEarthL2IsThatOfADifferentialCorrection) {
+  const Scene scene = io::read_scene(std::filesystem::path(HAMJET_SOURCE_DIR) /
+                                     "data/scenes/own/sun-earth-l2-formation.toml");
+  const PeriodicStudy study = study_periodic(scene);
+  ASSERT_EQ(study.family.members.size(), 1U);
+  const PeriodicOrbit& orbit = study.family.members[0].orbit;
+  const long double mu = 1 / (1 + 328900.5596L);
+  const Vector<double>& s = orbit.start();
+  const auto own = test::corrected_halo(test::RestrictedProblem(mu), s[0] + 1 - mu, s[2],
+                                        s[4] - s[0], orbit.nodes.period);
+  EXPECT_NEAR(s[0], static_cast<double>(own.x - 1 + mu), 1e-12);
+  EXPECT_NEAR(s[4] - s[0], static_cast<double>(own.vy), 1e-12);
+  EXPECT_NEAR(orbit.nodes.period, static_cast<double>(own.period), 1e-10);
+}
+
 // The family is followed from the near-rectilinear orbits almost to the plane, through the fold of
 // the energy.
 TEST(HaloFamily, TenMembersAreThoseOfADifferentialCorrection) {

@@ -66,7 +66,7 @@ std::string missing_for_deviations(const Scene& asked) {
   const SharedSystem system = make_system(scene);
   if (scene.system.own_text && !scene.system.own_text->states.empty()) {
     return "not available for a vector field, got system.vector_field, must be a Hamiltonian: "
-           "transfers and reach are of a symplectic map of coordinates and momenta";
+           "this study is of a symplectic map of coordinates and momenta";
   }
   if (system->parameters > 0) {
     return fmt::format(
