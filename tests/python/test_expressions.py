@@ -1,10 +1,12 @@
 """Random expressions of the grammar of one's own systems, against mpmath at 50 digits.
 
-Where x and y stay and w' = f(x, y), w is f times the time, and the linear part of the jet has the
-derivatives of f likewise: the integration of a constant is exact to rounding. How much rounding makes of
-f is sampled: mpmath evaluates it again with every step wrong by a few units of 2^-53.
+Where x and y stay and w' = f(x, y), w is f times the time, and the jet has the Taylor coefficients of f
+likewise: the integration of a constant is exact to rounding. They are compared along lines, on which
+mpmath has series in one variable. How much rounding makes of f is sampled: it is evaluated again with
+every step wrong by a few units of 2^-53.
 """
 
+import math
 import random
 
 import pytest
@@ -16,6 +18,9 @@ mp = mpmath.mp
 
 WANTED = 200
 TOGETHER = 6  # states beside x and y
+ORDER = 4
+LINES = [(1, 0), (0, 1), (0.75, -0.5)]
+SAMPLES = 6
 START = {"x": 0.7, "y": -1.3}
 TIME = 2.0**-10  # short, so that steep functions take one step too
 
@@ -24,23 +29,25 @@ class Beyond(Exception):
     """A value near the edge of where a function is smooth, or too large."""
 
 
-class Dual:
-    """A value and its derivatives by x and y; `noise` is what rounding makes of each."""
+class Line:
+    """The Taylor series of a function along a line, c_0 + c_1 h + ... to the order of the jets; `noise`
+    is what rounding makes of each number."""
 
-    def __init__(self, value, slopes, noise):
+    def __init__(self, coefficients, noise):
         self.noise = noise
-        self.value = noise(value)
-        self.slopes = [noise(s) for s in slopes]
-        sizes = [abs(self.value), *map(abs, self.slopes)]
-        if not all(mpmath.isfinite(s) and s < 1e4 for s in sizes):
+        self.c = [noise(c) for c in coefficients]
+        if not all(mpmath.isfinite(c) and abs(c) < 1e4 for c in self.c):
             raise Beyond
 
-    def of(self, value, slope):
-        return Dual(value, [slope * s for s in self.slopes], self.noise)
+    @property
+    def value(self):
+        return self.c[0]
 
-    def with_other(self, other, value, by_self, by_other):
-        return Dual(value, [by_self * a + by_other * b
-                            for a, b in zip(self.slopes, other.slopes)], self.noise)
+    def like(self, coefficients):
+        return Line(coefficients, self.noise)
+
+    def constant(self, value):
+        return self.like([value] + [0] * ORDER)
 
 
 def inside(condition):
@@ -48,63 +55,121 @@ def inside(condition):
         raise Beyond
 
 
+def total(a, b, sign=1):
+    return a.like([x + sign * y for x, y in zip(a.c, b.c)])
+
+
 def product(a, b):
-    return a.with_other(b, a.value * b.value, b.value, a.value)
+    return a.like([sum(a.c[k] * b.c[n - k] for k in range(n + 1)) for n in range(ORDER + 1)])
 
 
 def quotient(a, b):
     inside(abs(b.value) > 0.05)
-    return a.with_other(b, a.value / b.value, 1 / b.value, -a.value / b.value**2)
+    c = []
+    for n in range(ORDER + 1):
+        c.append((a.c[n] - sum(c[k] * b.c[n - k] for k in range(n))) / b.c[0])
+    return a.like(c)
+
+
+def negative(a):
+    return a.like([-x for x in a.c])
+
+
+def solution(u, values, slopes):
+    """Functions f_i of u with df_i/du = slopes(f)_i, by as many of Picard's iterations as the order
+    has degrees: each makes one more coefficient right."""
+    functions = [u.constant(value) for value in values]
+    for _ in range(ORDER):
+        rates = slopes(*functions)
+        functions = [
+            u.like([value] + [sum((k + 1) * u.c[k + 1] * rate.c[n - k] for k in range(n + 1)) / (n + 1)
+                              for n in range(ORDER)])
+            for value, rate in zip(values, rates)]
+    return functions[0]
 
 
 def power(a, b):
     inside(a.value > 0.05 and abs(b.value) < 6)
-    value = a.value**b.value
-    return a.with_other(b, value, b.value * a.value**(b.value - 1), value * mp.log(a.value))
-
-
-def negative(a):
-    return a.of(-a.value, -1)
+    return exponential(product(b, logarithm(a)))
 
 
 def natural_power(n):
     def apply(a):
-        if n < 0:
-            inside(abs(a.value) > 0.05)
-        return a.of(a.value**n, n * a.value**(n - 1))
+        result = a
+        for _ in range(abs(n) - 1):
+            result = product(result, a)
+        return quotient(a.constant(1), result) if n < 0 else result
     return apply
+
+
+def exponential(u):
+    return solution(u, [mp.exp(u.value)], lambda f: [f])
+
+
+def logarithm(u):
+    return solution(u, [mp.log(u.value)], lambda f: [quotient(u.constant(1), u)])
+
+
+def root(u):
+    return solution(u, [mp.sqrt(u.value)], lambda f: [quotient(u.constant(0.5), f)])
+
+
+def square(u):
+    return product(u, u)
+
+
+def arc_tangent(u):
+    one = u.constant(1)
+    return solution(u, [mp.atan(u.value)], lambda f: [quotient(one, total(one, square(u)))])
 
 
 def arc_of_two(a, b):
-    square = a.value**2 + b.value**2
-    inside(square > 0.01 and (b.value > 0 or abs(a.value) > 0.05))
-    return a.with_other(b, mp.atan2(a.value, b.value), b.value / square, -a.value / square)
+    inside(a.value**2 + b.value**2 > 0.01 and (b.value > 0 or abs(a.value) > 0.05))
+    # Of the quotient whose divisor is the larger; the values differ by a constant.
+    if abs(b.value) > abs(a.value):
+        arc = arc_tangent(quotient(a, b))
+    else:
+        arc = negative(arc_tangent(quotient(b, a)))
+    return a.like([mp.atan2(a.value, b.value), *arc.c[1:]])
 
 
-def function(value, slope, condition=lambda x: True):
-    def apply(a):
+def arc_slope(u):
+    return quotient(u.constant(1), root(total(u.constant(1), square(u), -1)))
+
+
+def function(apply, condition=lambda x: True):
+    def checked(a):
         inside(condition(a.value))
-        return a.of(value(a.value), slope(a.value))
-    return apply
+        return apply(a)
+    return checked
 
 
 FUNCTIONS = {
-    "sqrt": function(mp.sqrt, lambda x: 1 / (2 * mp.sqrt(x)), lambda x: x > 0.05),
-    "exp": function(mp.exp, mp.exp, lambda x: x < 8),
-    "log": function(mp.log, lambda x: 1 / x, lambda x: x > 0.05),
-    "sin": function(mp.sin, mp.cos),
-    "cos": function(mp.cos, lambda x: -mp.sin(x)),
-    "tan": function(mp.tan, lambda x: 1 + mp.tan(x)**2, lambda x: abs(mp.cos(x)) > 0.1),
-    "asin": function(mp.asin, lambda x: 1 / mp.sqrt(1 - x**2), lambda x: abs(x) < 0.95),
-    "acos": function(mp.acos, lambda x: -1 / mp.sqrt(1 - x**2), lambda x: abs(x) < 0.95),
-    "atan": function(mp.atan, lambda x: 1 / (1 + x**2)),
-    "sinh": function(mp.sinh, mp.cosh, lambda x: abs(x) < 8),
-    "cosh": function(mp.cosh, mp.sinh, lambda x: abs(x) < 8),
-    "tanh": function(mp.tanh, lambda x: 1 - mp.tanh(x)**2),
+    "sqrt": function(root, lambda x: x > 0.05),
+    "exp": function(exponential, lambda x: x < 8),
+    "log": function(logarithm, lambda x: x > 0.05),
+    "sin": function(lambda u: solution(u, [mp.sin(u.value), mp.cos(u.value)],
+                                       lambda s, c: [c, negative(s)])),
+    "cos": function(lambda u: solution(u, [mp.cos(u.value), mp.sin(u.value)],
+                                       lambda c, s: [negative(s), c])),
+    "tan": function(lambda u: solution(u, [mp.tan(u.value)],
+                                       lambda f: [total(u.constant(1), square(f))]),
+                    lambda x: abs(mp.cos(x)) > 0.1),
+    "asin": function(lambda u: solution(u, [mp.asin(u.value)], lambda f: [arc_slope(u)]),
+                     lambda x: abs(x) < 0.9),
+    "acos": function(lambda u: solution(u, [mp.acos(u.value)], lambda f: [negative(arc_slope(u))]),
+                     lambda x: abs(x) < 0.9),
+    "atan": function(arc_tangent),
+    "sinh": function(lambda u: solution(u, [mp.sinh(u.value), mp.cosh(u.value)],
+                                        lambda s, c: [c, s]), lambda x: abs(x) < 8),
+    "cosh": function(lambda u: solution(u, [mp.cosh(u.value), mp.sinh(u.value)],
+                                        lambda c, s: [s, c]), lambda x: abs(x) < 8),
+    "tanh": function(lambda u: solution(u, [mp.tanh(u.value)],
+                                        lambda f: [total(u.constant(1), square(f), -1)])),
 }
 OPERATIONS = {
-    "({} + {})": lambda a, b: a.with_other(b, a.value + b.value, 1, 1),
-    "({} - {})": lambda a, b: a.with_other(b, a.value - b.value, 1, -1),
+    "({} + {})": total,
+    "({} - {})": lambda a, b: total(a, b, -1),
     "{}*{}": product,
     "{}/{}": quotient,
     "{}^{}": power,
@@ -114,14 +179,14 @@ OPERATIONS = {
 
 
 def drawn(generator, depth):
-    """An expression as text, and a function that makes its dual of those of x and y."""
+    """An expression as text, and a function that makes its series of those of x and y."""
     if depth == 0 or generator.random() < 0.1:
         kind = generator.choice("xyxyxycp")
         if kind == "c":
             number = f"{generator.uniform(0.1, 3):.{generator.randint(1, 25)}g}"
-            return number, lambda x, y: x.of(mp.mpf(number), 0)
+            return number, lambda x, y: x.constant(mp.mpf(number))
         if kind == "p":
-            return "pi", lambda x, y: x.of(+mp.pi, 0)
+            return "pi", lambda x, y: x.constant(+mp.pi)
         return kind, (lambda x, y: x) if kind == "x" else (lambda x, y: y)
     text, inner = drawn(generator, depth - 1)
     choice = generator.random()
@@ -147,13 +212,17 @@ def drawn(generator, depth):
 
 
 def evaluated(expression, noise):
-    x, y = (mp.mpf(START[name]) for name in "xy")
-    result = expression(Dual(x, [1, 0], noise), Dual(y, [0, 1], noise))
-    return [result.value, *result.slopes]
+    """The coefficients along each line, one line after the other."""
+    found = []
+    for direction in LINES:
+        x, y = (Line([mp.mpf(START[name]), mp.mpf(slope)] + [0] * (ORDER - 1), noise)
+                for name, slope in zip("xy", direction))
+        found += expression(x, y).c
+    return found
 
 
 def good_expressions():
-    """Texts with value, derivatives by x and y, and how far rounding may lead from each."""
+    """Texts with their coefficients along the lines, and how far rounding may lead from each."""
     generator = random.Random(20261127)
     found = []
     while len(found) < WANTED:
@@ -167,19 +236,31 @@ def good_expressions():
 
         try:
             exact = evaluated(expression, lambda value: value)
-            samples = [evaluated(expression, rounded) for _ in range(12)]
+            samples = [evaluated(expression, rounded) for _ in range(SAMPLES)]
         except (Beyond, ZeroDivisionError):
             continue
-        # Steps that a derivative takes in another order round otherwise: four times the sample's
-        # largest, and a few units of the value or of 1, which the integration adds.
+        # Steps that a derivative takes in another order round otherwise: eight times the sample's
+        # largest, and a few units of the largest coefficient or of 1, which the integration adds.
         scale = max(1, *map(abs, exact))
-        bounds = [4 * max(abs(s[i] - exact[i]) for s in samples) + mp.mpf(2)**-48 * scale
-                  for i in range(3)]
+        bounds = [8 * max(abs(s[i] - exact[i]) for s in samples) + mp.mpf(2)**-48 * scale
+                  for i in range(len(exact))]
         found.append((text, exact, bounds))
     return found
 
 
-def test_values_and_first_derivatives_are_those_of_mpmath():
+def along(jet, component, direction):
+    """The coefficients of a component along a line."""
+    found = [0.0] * (ORDER + 1)
+    for exponents, coefficient in zip(jet.exponents, jet.coefficients[component]):
+        powers = [int(e) for e in exponents]
+        if any(powers[2:]):
+            continue
+        found[powers[0] + powers[1]] += float(coefficient) * math.prod(
+            slope**power for slope, power in zip(direction, powers))
+    return found
+
+
+def test_jets_are_those_of_mpmath():
     with mp.workdps(50):
         expressions = good_expressions()
         for name in FUNCTIONS:
@@ -190,8 +271,10 @@ def test_values_and_first_derivatives_are_those_of_mpmath():
             field = {"x": "0", "y": "0",
                      **{f"w{k}": text for k, (text, _, _) in enumerate(some)}}
             made = hamjet.system(vector_field=field, states=states)
-            jet = hamjet.run(made.scene(START, duration=TIME, order=1)).runs["gauss8"].jet
+            jet = hamjet.run(made.scene(START, duration=TIME, order=ORDER,
+                                        variables=["x", "y"])).runs["gauss8"].jet
             for k, (text, exact, bounds) in enumerate(some):
-                got = [jet.nominal_final[2 + k], *jet.linear_part[2 + k][:2]]
-                for what, value, right, bound in zip(("value", "by x", "by y"), got, exact, bounds):
-                    assert abs(mp.mpf(float(value)) / TIME - right) <= bound, (text, what, value, right)
+                got = [c for direction in LINES for c in along(jet, 2 + k, direction)]
+                for n, (value, right, bound) in enumerate(zip(got, exact, bounds)):
+                    what = (text, LINES[n // (ORDER + 1)], "degree", n % (ORDER + 1))
+                    assert abs(mp.mpf(value) / TIME - right) <= bound, (*what, value, right)
