@@ -20,8 +20,7 @@ SixNumbers<Series<Real>> six_of(const FlowJet<Real>& jet) {
 }
 
 /// Distance and speed at a state that moves along the flow, a series of the time: positions and
-/// momenta have units of their own. Where a system turns round it is at rest, so that the speed is
-/// at least that which its force gives it over the distance.
+/// momenta have units of their own, and `time` is one in which they change by about their sizes.
 template <class Real>
 struct StateSizes {
   explicit StateSizes(const SixNumbers<Series<Real>>& flown) {
@@ -32,15 +31,22 @@ struct StateSizes {
       return Real(sqrt(sum));
     };
     distance = norm(0, 0);
-    speed = std::max(norm(3, 0), Real(sqrt(Real(norm(0, 0) * norm(3, 1)))));
+    speed = norm(3, 0);
+    // Where a system turns round momenta vanish with rates, and their ratio stays.
+    const Real rates = norm(0, 1) * norm(3, 1);
+    if (rates > Real(0)) time = sqrt(Real(distance * speed / rates));
+    distance = std::max(distance, Real(norm(0, 1) * time));
+    speed = std::max(speed, Real(norm(3, 1) * time));
     // At rest, or at the origin, nothing else is there to measure by.
     if (!(speed > Real(0))) speed = Real(1);
     if (!(distance > Real(0))) distance = Real(1);
   }
 
   Real of(std::size_t place) const { return place < 3 ? distance : speed; }
+
   Real distance;
   Real speed;
+  Real time = 0;
 };
 
 /// A condition at one state: its value, its derivative along the flow, and the sine of the angle
@@ -76,8 +82,7 @@ Crossing<Real> crossing_at(const SharedSystem& system, const SixNumbers<Series<R
     gradient += slope * slope;
     speed += rate * rate;
   }
-  return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed)),
-          sizes.distance / sizes.speed};
+  return {value[0], value[1], Real(abs(value[1])) / sqrt(Real(gradient * speed)), sizes.time};
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ const TableDescription& event_table() {
         "position and velocity (a pericentre where it rises, an apocentre where it falls), or an "
         "`expression`, the only one of a system of the scene's own"},
        {"expression", form::text(), absent::other("required with `expression`, refused without"),
-        "of the variables, x, y, z, px, py, pz of an orbit, in the units of the scene, and of the "
-        "parameters and definitions of an own system; as in `[system]`"},
+        "of x, y, z in km and px, py, pz in km/s of an orbit, or of the variables, "
+        "parameters and definitions of an own system, as in `[system]`"},
        {"normal", form::array(form::number(), 3),
         absent::other("required with `plane`, refused without"),
         "normal of the plane, x, y, z of the nominal's axes; of any length"},

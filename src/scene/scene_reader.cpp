@@ -82,7 +82,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
       std::erase(scene.nominal_file->unused, "spacecraft parameters");
     }
     scene.warnings = likely_slips(root, scene);
-    set_own_system(root.table("system"), scene);
+    set_own_system(root, scene);
   });
   if (!has_start) return scene;
   read_table("formation", [&](const auto& table) {

@@ -19,7 +19,7 @@ inline constexpr int most_deputies = 200;
 /// Refuses a scene on which these studies cannot work: one without an orbit, with a jet that is not
 /// expanded in all six variables, or in extended precision.
 void require_relative_motion(const TableReader& table, const Scene& scene);
-/// The same for the studies that also serve systems without an orbit, along three coordinates.
+/// The same for the studies that also serve systems without an orbit, along their coordinates.
 void require_deviations(const TableReader& table, const Scene& scene);
 /// Refuses keys that are about spacecraft in an orbit, in the table of a system without one;
 /// `instead` is what the table has along the coordinates of such a system.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "../algebra/state_sums.hpp"
 #include "../studies/formation/charts/free_coordinates.hpp"
+#include "../text/quantity_text.hpp"
 #include "../text/scene_message.hpp"
 #include "hamjet/error.hpp"
 #include "scene_covariance_file.hpp"
@@ -115,18 +115,22 @@ const TableDescription& burn_table() {
 struct Limits {
   double position_m = 0;
   double velocity_m_s = 0;
+  std::string_view of_position = "the chief's distance from the centre";
+  std::string_view of_velocity = "the speed of a circular orbit through the chief";
 };
-constexpr std::string_view of_position = "the chief's distance from the centre";
-constexpr std::string_view of_velocity = "the speed of a circular orbit through the chief";
 
 Limits limits_of(const Nominal& nominal) {
-  if (!nominal.orbit) {
-    constexpr double none = std::numeric_limits<double>::infinity();
-    return {none, none};
-  }
   const CanonicalUnits units = canonical_units(nominal.scale);
-  const double distance = Eigen::Vector3d(nominal.state.data()).norm();
   const double length_m = units.length_km * 1000;
+  if (!nominal.orbit) {
+    // Beyond this powers of a deviation leave the range of doubles, and its moments say nothing.
+    constexpr double far = 1e9;
+    double size = 1;
+    for (const double number : nominal.state) size = std::max(size, std::abs(number));
+    const double most_m = far * size * length_m;
+    return {most_m, most_m / units.time_s, "far from the nominal", "far from the nominal"};
+  }
+  const double distance = Eigen::Vector3d(nominal.state.data()).norm();
   return {distance * length_m, length_m / units.time_s / std::sqrt(distance)};
 }
 
@@ -154,7 +158,7 @@ Covariance read_covariance(const TableReader& table, const Limits& limits, Relat
         fmt::format("too large, got a standard deviation of {:.4g} {} of {}, must be "
                     "below {:.4g}, {}; variances are in m^2 and m^2/s^2",
                     deviation, i < 3 ? "m" : "m/s", names[static_cast<std::size_t>(i)], limit,
-                    i < 3 ? of_position : of_velocity));
+                    i < 3 ? limits.of_position : limits.of_velocity));
   }
   return Covariance(matrix, names);
 }
@@ -247,8 +251,10 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
   }
   if (!has_deviations) {
     table.fail("position_m",
-               "missing, must be an array of 3 standard deviations, as may velocity_m_s be, or "
-               "covariance_m_m_s or file must be there");
+               fmt::format("missing, must be an array of {}, as may velocity_m_s be, or "
+                           "covariance_m_m_s{} must be there",
+                           counted(told_coordinates(scene.system), "standard deviation"),
+                           nominal.orbit ? " or file" : ""));
   }
   Vector<double> deviations = Vector<double>::Zero(6);
   const auto read = [&](std::string_view key, double limit, std::string_view what,
@@ -259,8 +265,8 @@ StateUncertainty read_state_uncertainty(const TableReader& table, const TableRea
       deviations[place++] = deviation;
     }
   };
-  read("position_m", limits.position_m, of_position, 0);
-  read("velocity_m_s", limits.velocity_m_s, of_velocity, 3);
+  read("position_m", limits.position_m, limits.of_position, 0);
+  read("velocity_m_s", limits.velocity_m_s, limits.of_velocity, 3);
   state.covariance = Covariance::of_standard_deviations(deviations);
   return state;
 }
@@ -272,11 +278,12 @@ BurnUncertainty read_burn(const TableReader& burn, const TableReader& fallback,
   settings.frame = read_covariance_frame(burn, fallback, nominal);
   const std::vector<double> change = burn.numbers("velocity_change_m_s", 3);
   settings.velocity_change_m_s = {change[0], change[1], change[2]};
-  const double limit = limits_of(nominal).velocity_m_s;
+  const Limits limits = limits_of(nominal);
+  const double limit = limits.velocity_m_s;
   if (!(settings.velocity_change_m_s.stableNorm() < limit)) {
     burn.fail("velocity_change_m_s",
               fmt::format("too large, got a magnitude of {:.4g}, must be below {:.4g}, {}",
-                          settings.velocity_change_m_s.stableNorm(), limit, of_velocity));
+                          settings.velocity_change_m_s.stableNorm(), limit, limits.of_velocity));
   }
   burn.read_if_any("magnitude", settings.magnitude);
   burn.read_if_any("direction_deg", settings.direction_deg);
@@ -346,6 +353,11 @@ UncertaintySettings read_uncertainty(const TableReader& root, const Scene& scene
         {"file", "object", "gaussian_in", "deputy", "collision", "safety", "coordinates",
          "acceleration_density_m2_s3", "tolerance_m", "most_domains"},
         "the moments of a start that is Gaussian in them, and flights");
+    if (uncertainty.has("burn") && told_coordinates(scene.system) < 3) {
+      uncertainty.fail("burn",
+                       "has a direction in space, got it beside fewer than three coordinates, must "
+                       "be left out; velocity_m_s may have its error");
+    }
   }
   UncertaintySettings settings;
   settings.frame = read_covariance_frame(uncertainty, uncertainty, nominal);

@@ -145,8 +145,8 @@ class EarthField(Field):
 
     def __init__(self, gravity, degree, order, sun, moon, epoch, orientation=None, air=None,
                  radiation_m2_kg=REAL(0)):
-        """The gravity is as shipped_field gives it, taken up to a degree and order. The air, if there is any, is its model, the exponent of its bulge, and C_D A / m times the
-        factor of all densities; the light is that of C_R A / m, without a shadow until light_chief."""
+        """The gravity is as shipped_field gives it, taken up to a degree and order. The air, if there
+        is any, is its model, the exponent of its bulge, and C_D A / m times the factor of all densities; the light is that of C_R A / m, without a shadow until light_chief."""
         self._settings = gravity, degree, order, sun, moon, epoch, orientation
         self._lights = None
         self.air, self.radiation_m2_kg = air, radiation_m2_kg

@@ -179,7 +179,10 @@ void add_scalars(MomentsColumns& table, const UncertaintyResult& result) {
                    "whether velocities are seen from the turning axes or from inertial ones",
                    derivatives_name(settings.frame));
   table.add_scalar("units", "", "the units of the components",
-                   "m, m/s; in other coordinates canonical, by the chief's distance at the start");
+                   is_orbit(result.scene.system.model)
+                       ? "m, m/s; in other coordinates canonical, by the chief's distance at the "
+                         "start"
+                       : "m, m/s");
   table.add_scalar("verdict", "", "the outcome in words", uncertainty_verdict(result));
   table.add_scalars("notes", "", "what to know beside the numbers", uncertainty_notes(result));
   table.add_scalar("misleading_probability", "",

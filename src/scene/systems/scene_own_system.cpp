@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <regex>
 #include <utility>
 
 #include "../../studies/descriptions/system_description.hpp"
@@ -75,6 +76,17 @@ void refuse_beside(const TableReader& system, std::string_view key, std::string_
   system.fail(key, fmt::format("beside {}, got {}, must be {}", other, system.found(key), right));
 }
 
+/// The expression of `[event]`, which uses definitions and parameters too; empty without one.
+std::string expression_of_event(const TableReader& root) {
+  if (!root.has("event")) return "";
+  return root.table("event").text_if_any("expression").value_or("");
+}
+
+/// Whether a name stands in an expression.
+bool has_word(const std::string& expression, const std::string& name) {
+  return std::regex_search(expression, std::regex("\\b" + name + "\\b"));
+}
+
 }  // namespace
 
 std::vector<SceneKey> own_keys() {
@@ -124,13 +136,16 @@ void read_own_system(const TableReader& root, SystemSettings& settings) {
   settings.own_text = std::move(text);
 }
 
-void set_own_system(const TableReader& system, Scene& scene) {
+void set_own_system(const TableReader& root, Scene& scene) {
   if (!scene.system.own_text) return;
+  const TableReader system = root.table("system");
   const SystemText& text = *scene.system.own_text;
   DynamicalSystem made = make_system("own", text);
   attempt_text(system, [&] { require_finite_at(text, made, scene.nominal); });
+  const std::string in_event = expression_of_event(root);
   for (const auto& [part, what] : likely_mistakes(text, made)) {
     const std::size_t dot = part.find('.');
+    if (dot != part.npos && has_word(in_event, part.substr(dot + 1))) continue;
     const std::string head = dot == part.npos
                                  ? system.head(part)
                                  : system.table(part.substr(0, dot)).head(part.substr(dot + 1));

@@ -18,6 +18,6 @@ void read_own_system(const TableReader& root, SystemSettings& settings);
 
 /// Makes the system that the scene writes, if it does, and warns of likely mistakes in it. Throws
 /// Error(scene) if it has no finite values at the nominal's start.
-void set_own_system(const TableReader& system, Scene& scene);
+void set_own_system(const TableReader& root, Scene& scene);
 
 }  // namespace hamjet::io

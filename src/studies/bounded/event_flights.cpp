@@ -8,8 +8,8 @@
 #include "../exact_flow.hpp"
 #include "../formation/charts/deputy_flows.hpp"
 #include "../formation/charts/free_coordinates.hpp"
+#include "../formation/single_transfer.hpp"
 #include "../formation/validity/slice_maxima.hpp"
-#include "../formation_scale.hpp"
 #include "hamjet/algebra/calculus.hpp"
 #include "hamjet/error.hpp"
 
@@ -58,23 +58,30 @@ EventFlights::EventFlights(const Scene& scene, const EventCondition<double>& con
   const Eigen::Vector3d chief(scene.nominal.data());
   mean_motion_ = is_orbit(scene.system.model)
                      ? std::sqrt(orbit_field(scene).mu / std::pow(chief.norm(), 3))
-                     : momentum_per_length(scene);
+                     : 1 / std::abs(map.time[0]);
   std::mt19937_64 generator(1);
   std::vector<Vector6> samples;
-  // Along coordinates that move freely there are no deviations.
-  Vector6 is_told = Vector6::Zero();
-  for (const std::size_t i : told_components(scene.system)) is_told[static_cast<int>(i)] = 1;
+  const std::size_t told = told_coordinates(scene.system);
   for (std::size_t k = 0; k < random_directions; ++k) {
-    samples.push_back(random_coordinates(generator).cwiseProduct(is_told));
+    samples.push_back(in_told_directions(random_coordinates(generator), told));
   }
   directions_.assign(samples.begin(), samples.begin() + flown_random_directions);
-  Matrix<double> variables = Matrix<double>::Identity(6, 6);
-  for (Eigen::Index i = 0; i < 6; ++i) variables(i, i) = is_told[i] * (i < 3 ? 1 : mean_motion_);
+  const MetricUnits units = metric_units(scene);
+  const bool has_orbit = is_orbit(scene.system.model);
+  to_canonical_ = deviations_of_relative_states(ChiefFrame(
+      scene.nominal, units, has_orbit ? RelativeFrame::inertial : RelativeFrame::coordinates));
+  to_canonical_.rightCols(3) *= mean_motion_ / units.time_s;
+  Matrix<double> variables = to_canonical_ * units.length_m;
+  // Along coordinates that move freely there are no deviations.
+  for (Eigen::Index i = static_cast<Eigen::Index>(told); i < 3; ++i) {
+    variables.col(i).setZero();
+    variables.col(3 + i).setZero();
+  }
   SliceMaxima slices({steering.state[0], steering.state[1], steering.state[2]}, variables);
   for (const int degree : {steering.time.space().order(), 2}) {
     const std::vector<Vector6> maxima = slices.maxima(samples, degree);
     for (std::size_t k = 0; k < std::min(flown_maxima, maxima.size()); ++k) {
-      add_both(directions_, maxima[k]);
+      add_both(directions_, in_told_directions(maxima[k], told));
     }
   }
 }
@@ -98,11 +105,8 @@ EventMisses EventFlights::fly(double amplitude_m) const {
 EventFlights::Miss EventFlights::largest_miss(double amplitude_m, bool is_linear) const {
   Miss worst;
   for (const Vector6& direction : directions_) {
-    std::vector<double> deviation;
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      deviation.push_back(direction[i] * amplitude_m / metres() * (i < 3 ? 1 : mean_motion_));
-    }
-    const Miss one = miss(deviation, is_linear);
+    const Vector6 canonical = to_canonical_ * direction * amplitude_m;
+    const Miss one = miss({canonical.begin(), canonical.end()}, is_linear);
     // A miss that is no number stays.
     if (!(one.position_m <= worst.position_m)) worst.position_m = one.position_m;
     if (!(one.time_s <= worst.time_s)) worst.time_s = one.time_s;

@@ -13,7 +13,8 @@ namespace hamjet {
 double condition_at(const EventCondition<double>& condition, std::span<const double> state);
 
 /// Deputies flown to the events that polynomials predict for them. Their deviations, of one size in
-/// position and of that times the mean motion in velocity, are random ones, and those at which the
+/// position and of that times the mean motion in velocity (of systems without an orbit, over the
+/// time of the event), are random ones, and those at which the
 /// degrees that decide about the error contribute most to the place of the event: near a surface
 /// that the flow almost touches, misses differ by powers of ten from direction to direction, and
 /// random ones would tell of the usual alone.
@@ -40,7 +41,9 @@ class EventFlights {
   const EventCondition<double>& condition_;
   const EventMap<double>& map_;
   SharedSystem system_;
-  double mean_motion_;               ///< mean motion of a circle through the chief's start
+  /// Mean motion of a circle through the chief's start; one over the event's time without an orbit.
+  double mean_motion_;
+  Matrix<double> to_canonical_;      ///< of a direction, for an amplitude of a metre
   std::vector<Vector6> directions_;  ///< a unit vector of position and one of velocity
 };
 

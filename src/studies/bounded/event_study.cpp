@@ -114,11 +114,13 @@ class EventSearch {
     return {time, sign * least};
   }
 
-  /// Counts a change of sign if it has the direction; its time if it is the number's.
+  /// Counts a change of sign if it has the direction and is one through zero; its time if it is the
+  /// number's.
   std::optional<double> counted(const Place& from, const Place& to, int number) {
     if (!is_wanted((to.value - from.value) / (to.time - from.time))) return std::nullopt;
-    if (++found_ != number) return std::nullopt;
-    return crossing(from.time, from.value, to.time);
+    const std::optional<double> time = crossing(from, to);
+    if (!time || ++found_ != number) return std::nullopt;
+    return time;
   }
 
   bool is_wanted(double slope) const {
@@ -126,15 +128,21 @@ class EventSearch {
            (slope > 0) == (direction_ == EventDirection::rising);
   }
 
-  double crossing(double from, double value, double to) const {
+  /// None at a pole or a jump of the condition, towards which its values do not vanish.
+  std::optional<double> crossing(Place from, Place to) const {
     // Newton's method on the jet does the rest.
     constexpr int halvings = 30;
+    constexpr double vanishing = 1e-3;
+    const double size = std::max(std::abs(from.value), std::abs(to.value));
     for (int i = 0; i < halvings; ++i) {
-      const double middle = (from + to) / 2;
-      const double there = at(middle);
-      (value * there <= 0 ? to : from) = middle;
+      const double middle = (from.time + to.time) / 2;
+      const Place there{middle, at(middle)};
+      (from.value * there.value <= 0 ? to : from) = there;
     }
-    return (from + to) / 2;
+    if (!(std::max(std::abs(from.value), std::abs(to.value)) <= vanishing * size)) {
+      return std::nullopt;
+    }
+    return (from.time + to.time) / 2;
   }
 
   const EventCondition<double>& condition_;
@@ -196,12 +204,15 @@ FunctionText event_function(const Scene& scene) {
 namespace {
 
 EventCondition<double> condition_of_expression(const Scene& scene) {
-  const CanonicalFactors told = told_factors(scene);
+  // Kilometres and km/s of an orbit, and the numbers of an own system's scene.
+  const bool is_in_km = is_orbit(scene.system.model);
+  const double length = is_in_km ? scene.units.length_km : 1;
+  const double momentum = is_in_km ? length / scene.units.time_s : 1;
   const auto list = std::make_shared<const OperationList>(record_function(event_function(scene)));
-  return [told, list](const SixNumbers<Series<double>>& z) {
+  return [length, momentum, list](const SixNumbers<Series<double>>& z) {
     std::vector<Series<double>> inputs;
     for (std::size_t i = 0; i < 6; ++i) {
-      inputs.push_back(z[i] * (i < 3 ? told.length : told.momentum));
+      inputs.push_back(z[i] * (i < 3 ? length : momentum));
     }
     return evaluate_on_series<double>(*list, inputs)[0];
   };
@@ -252,15 +263,18 @@ EventStudy study_event(const Scene& asked, const ProgressCallback& progress) {
   EventSearch search(scene, condition);
   const std::optional<double> near = search.find(scene.event->number);
   if (!near) {
+    const int found = search.found();
+    const bool is_in_km =
+        scene.event->surface == EventSurface::expression && is_orbit(scene.system.model);
     throw Error(
         ErrorKind::scene,
         fmt::format("event.number: no such event, got {}, where within jet.duration "
                     "({:.10g} s) the chief has {}; must be {}a longer jet.duration, another "
-                    "surface or another direction would be right",
+                    "surface or another direction would be right{}",
                     scene.event->number, scene.duration * scene.units.time_s,
-                    search.found() == 0 ? "none" : std::to_string(search.found()),
-                    search.found() == 0 ? "one that it meets: "
-                                        : fmt::format("at most {}, or ", search.found())));
+                    found == 0 ? "none" : std::to_string(found),
+                    found == 0 ? "one that it meets: " : fmt::format("at most {}, or ", found),
+                    is_in_km ? "; the expression is of km and km/s" : ""));
   }
   if (progress) progress("event", 0.2);
   SixNumbers<double> chief = six_numbers(scene.nominal);

@@ -118,6 +118,12 @@ TEST_F(BadOwn, StudiesAreOneLine) {
        table("[uncertainty]\nposition_m = [1, 1, 1]"),
        {"uncertainty.position_m: wrong length", "must be an array of 2"}},
       {"[nominal]",
+       table("[uncertainty]\nposition_m = [1, 1e155]"),
+       {"uncertainty.position_m.1: no standard deviation", "far from the nominal"}},
+      {"[nominal]",
+       table("[uncertainty]\nburn = { velocity_change_m_s = [1, 0, 0], magnitude = 0.1 }"),
+       {"uncertainty.burn: has a direction in space", "must be left out"}},
+      {"[nominal]",
        table("[uncertainty]\nposition_m = [1, 1]\ncollision = { radius_m = 1 }"),
        {"uncertainty.collision: for spacecraft in an orbit", "must be left out"}},
       {"[nominal]", table("[periodic]\nhold = \"z\""), {"periodic.hold", "energy, period, x"}},
@@ -131,7 +137,7 @@ TEST_F(BadOwn, StudiesAreOneLine) {
       {"[nominal]", table("[periodic.family]\nalong = \"x\""), {"periodic.family.to: missing"}},
       {"duration_canonical = 1", "duration_canonical = -1\n[periodic]", {"periodic: no guess"}},
       {"duration_canonical = 1", "duration_orbits = 1", {"jet.duration_orbits", "no key"}}};
-  ASSERT_EQ(mistakes.size(), 14U);
+  ASSERT_EQ(mistakes.size(), 16U);
   expect_each_refused(own_scene, mistakes);
   // An orbit that closes at one time does not at another where the forces change.
   expect_refused(changed(own_scene, "k*x", "k*x*cos(t)"), "[nominal]", "[periodic]\n[nominal]",

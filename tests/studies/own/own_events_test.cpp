@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 
 #include "hamjet/scene/scene_reader.hpp"
 #include "report/bounded/event_report.hpp"
 #include "studies/bounded/event_study.hpp"
+#include "support/errors.hpp"
 
 // Events whose surface is an expression, of systems that a scene writes and of orbits.
 
@@ -66,7 +69,7 @@ TEST(OwnEvents, DirectionAndNumberCount) {
   EXPECT_NEAR(event_of("expression = \"L\"\nnumber = 2\n").map.time[0], 4 * K, 1e-12);
 }
 
-// Of an orbit the expression is in the units in which the scene gives its states.
+// Of an orbit the expression is in km and km/s, whatever the scene's units are.
 TEST(OwnEvents, AnExpressionOfAnOrbitIsOneOfItsSurfaces) {
   const auto study = [](const std::string& event) {
     return study_event(io::parse_scene(
@@ -78,13 +81,66 @@ TEST(OwnEvents, AnExpressionOfAnOrbitIsOneOfItsSurfaces) {
             event,
         "orbit.toml"));
   };
-  const EventStudy surface = study("surface = \"distance\"\ndistance_km = 9500\n");
-  const EventStudy expression =
-      study("surface = \"expression\"\nexpression = \"x^2 + y^2 + z^2 - 90.25\"\n");
-  for (std::size_t m = 0; m < surface.map.time.size(); ++m) {
-    const double size = 1e-11 * (1 + std::abs(surface.map.time[m]));
-    EXPECT_NEAR(expression.map.time[m], surface.map.time[m], size) << m;
+  const auto expect_same = [&](const std::string& surface, const std::string& expression) {
+    const EventStudy one = study(surface);
+    const EventStudy other = study("surface = \"expression\"\nexpression = \"" + expression + "\"");
+    for (std::size_t m = 0; m < one.map.time.size(); ++m) {
+      const double size = 1e-11 * (1 + std::abs(one.map.time[m]));
+      EXPECT_NEAR(other.map.time[m], one.map.time[m], size) << expression << " " << m;
+    }
+    EXPECT_NEAR(other.misses.at(0).linear_position_m.value(),
+                one.misses.at(0).linear_position_m.value(), 1e-6);
+  };
+  expect_same("surface = \"distance\"\ndistance_km = 9500\n", "x^2 + y^2 + z^2 - 9500^2");
+  expect_same("surface = \"apsis\"\n", "x*px + y*py + z*pz");
+  // At a place of the same energy in km^2/s^2, half of v^2 is what mu/r leaves.
+  const EventStudy at_speed =
+      study("surface = \"expression\"\nexpression = \"px^2 + py^2 + pz^2 - 36\"");
+  const std::vector<double> state = at_speed.state();
+  const double speed = std::hypot(state[3], state[4], state[5]) * at_speed.scene.units.length_km /
+                       at_speed.scene.units.time_s;
+  EXPECT_NEAR(speed, 6, 1e-11);
+}
+
+std::string oscillator(const std::string& mass, const std::string& expression, int order) {
+  return "[system]\nmodel = \"own\"\ncoordinates = [\"q\"]\nmomenta = [\"p\"]\n"
+         "parameters = { m = " +
+         mass +
+         " }\nhamiltonian = \"p^2/(2*m) + m*q^2/2\"\n[nominal]\ncoordinates = [1]\n"
+         "momenta = [0]\n[jet]\norder = " +
+         std::to_string(order) +
+         "\nduration_canonical = 9\n[event]\nsurface = \"expression\"\nexpression = \"" +
+         expression + "\"\n";
+}
+
+// q = A cos(t - f) with A = |(1 + dq, dp/m)| and f its angle: at first order the event is at
+// pi/2 + dp/m, where q is A sin(f - dp/m). Deputies lie at both sides of dq and of the rate dp/m,
+// which is that over the event's time.
+TEST(OwnEvents, DeputiesHaveTheDeviationsThatAreTold) {
+  constexpr double amplitude = 0.05;
+  const double rate = amplitude / (std::numbers::pi / 2);
+  double largest = 0;
+  for (const double dq : {-amplitude, amplitude}) {
+    for (const double dp : {-rate, rate}) {
+      const double A = std::hypot(1 + dq, dp), f = std::atan2(dp, 1 + dq);
+      largest = std::max(largest, std::abs(A * std::sin(f - dp)));
+    }
   }
+  for (const std::string mass : {"1e-6", "1", "1e6"}) {
+    const EventStudy study = study_event(
+        io::parse_scene(oscillator(mass, "q", 2) + "amplitudes_m = [0.05]\n", "oscillator.toml"));
+    ASSERT_EQ(study.misses.size(), 1U);
+    EXPECT_NEAR(study.misses[0].linear_position_m.value(), largest, 1e-9 * largest) << mass;
+  }
+}
+
+// -cot t = 2 at pi - atan(1/2) and a half turn later; between them is a pole. 1/q has poles alone.
+TEST(OwnEvents, APoleIsNoEvent) {
+  const EventStudy study =
+      study_event(io::parse_scene(oscillator("1", "q/p - 2", 1) + "number = 2\n", "pole.toml"));
+  EXPECT_NEAR(study.map.time[0], 2 * std::numbers::pi - std::atan(0.5), 1e-12);
+  test::expect_error([] { study_event(io::parse_scene(oscillator("1", "1/q", 1), "pole.toml")); },
+                     ErrorKind::scene, {"event.number: no such event", "has none"}, "1/q");
 }
 
 }  // namespace

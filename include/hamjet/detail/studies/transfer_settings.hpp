@@ -210,7 +210,8 @@ struct EventSettings {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< normal of a plane, in inertial axes
   double offset_km = 0;    ///< distance of a plane from the centre, along its normal
   double distance_km = 0;  ///< radius for `distance`
-  std::string expression;  ///< for `expression`, of the variables in the units that are told
+  std::string
+      expression;  ///< for `expression`: of an orbit in km and km/s, else as the scene has it
   EventDirection direction = EventDirection::either;
   int number = 1;  ///< number of the event, among those that the chief meets after its start
   /// Sizes of the position deviations of the deputies that are flown.

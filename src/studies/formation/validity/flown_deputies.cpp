@@ -77,6 +77,16 @@ Vector6 random_coordinates(std::mt19937_64& generator) {
   return coordinates;
 }
 
+Vector6 in_told_directions(Vector6 direction, std::size_t told) {
+  if (told == 3) return direction;
+  const auto count = static_cast<Eigen::Index>(told);
+  for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
+    direction.segment(first + count, 3 - count).setZero();
+    direction.segment<3>(first).normalize();
+  }
+  return direction;
+}
+
 std::vector<Vector6> far_apart(const std::vector<Vector6>& directions) {
   // After whole revolutions the polynomials' own parts say little of what they neglect, and few
   // starts leave a maximum out.

@@ -31,6 +31,8 @@ Vector6 direction_of_energy(const DynamicalSystem& system, std::span<const doubl
 
 /// Random unit coordinates, of position and of velocity.
 Vector6 random_coordinates(std::mt19937_64& generator);
+/// The direction along the first coordinates of so many, of which both halves are unit vectors.
+Vector6 in_told_directions(Vector6 direction, std::size_t told);
 
 /// The first of some directions that are far from each other, from which ascents may start.
 std::vector<Vector6> far_apart(const std::vector<Vector6>& directions);

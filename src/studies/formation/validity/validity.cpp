@@ -101,14 +101,8 @@ class ValidityStudy {
   }
 
   /// The direction without coordinates that move freely, which the ellipsoid does not have.
-  Vector6 told(Vector6 direction) const {
-    for (const Eigen::Index first : {Eigen::Index{0}, Eigen::Index{3}}) {
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        if (settings_.semi_axes[static_cast<std::size_t>(i)] == 0) direction[first + i] = 0;
-      }
-      direction.segment<3>(first).normalize();
-    }
-    return direction;
+  Vector6 told(const Vector6& direction) const {
+    return in_told_directions(direction, told_coordinates(scene_.system));
   }
 
   void visit(std::size_t index, const DeputyFlowPropagation& propagation, const DeputyFlow& flow,
