@@ -52,13 +52,13 @@ const TableDescription& event_table() {
 }
 
 /// What is wrong in the expression is said about its key.
-void read_expression(const TableReader& event, Scene scene, EventSettings& settings) {
+void read_expression(const TableReader& event, const SystemSettings& system,
+                     EventSettings& settings) {
   constexpr std::string_view key = "expression";
   if (settings.surface != EventSurface::expression) return refuse(event, key, "expression");
   settings.expression = event.text(key);
-  scene.event = settings;
   try {
-    const OperationList list = record_function(event_function(scene));
+    const OperationList list = record_function(event_function(system, settings.expression));
     if (list.has_time()) {
       event.fail(key, "depends on the time, got t in it, must be of variables alone");
     }
@@ -81,7 +81,7 @@ EventSettings read_event(const TableReader& event, const Scene& scene) {
                                       "is where one in the system's variables vanishes",
                                       event.found("surface")));
   }
-  read_expression(event, scene, settings);
+  read_expression(event, scene.system, settings);
   if (settings.surface == EventSurface::plane) {
     const std::vector<double> normal = event.numbers("normal", 3);
     settings.normal = {normal[0], normal[1], normal[2]};

@@ -44,8 +44,7 @@ std::vector<SceneKey> state_uncertainty_keys() {
   return {
       {"position_m", deviations_form(), absent::other("0, or another form of the covariance"),
        "standard deviations along the axes of the frame, as many as a system of the scene's own "
-       "has "
-       "coordinates"},
+       "has coordinates"},
       {"velocity_m_s", deviations_form(), absent::other("0, or another form of the covariance"),
        "standard deviations along the axes of the frame"},
       {"covariance_m_m_s", form::words("6 rows of 6 numbers, symmetric, positive semidefinite"),

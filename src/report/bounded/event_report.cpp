@@ -45,11 +45,15 @@ std::string condition_text(const EventSettings& event) {
   return "r . v = 0" + way;
 }
 
-std::vector<double> told_components_of_state(const EventStudy& study) {
-  const std::vector<double> all = told_state(study.scene, study.state());
-  std::vector<double> told;
+/// Of six numbers or names of a state's components, those that are told.
+template <class T>
+std::vector<T> told_of(const EventStudy& study, const std::vector<T>& all) {
+  std::vector<T> told;
   for (const std::size_t i : told_components(study.scene.system)) told.push_back(all[i]);
   return told;
+}
+std::vector<std::string_view> told_names(const EventStudy& study) {
+  return told_of(study, variable_names(study.scene.system));
 }
 
 /// The largest amplitude up to which all misses in position are at most a metre.
@@ -129,15 +133,15 @@ std::string event_page(const EventStudy& study, const ReportOrigin& origin, Char
 
 /// Where the chief meets the event: its position, or all variables of a system of the scene's own.
 std::string place_text(const EventStudy& study) {
-  const std::vector<double> state = study.state();
+  const std::vector<double> state = told_of(study, study.state());
   if (is_orbit(study.scene.system.model)) {
     const double kilometres = study.scene.units.length_km;
     return fmt::format("({:.9g}, {:.9g}, {:.9g}) km", state[0] * kilometres, state[1] * kilometres,
                        state[2] * kilometres);
   }
-  const std::vector<std::string_view> names = variable_names(study.scene.system);
+  const std::vector<std::string_view> names = told_names(study);
   std::vector<std::string> values;
-  for (const std::size_t i : told_components(study.scene.system)) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
     values.push_back(fmt::format("{} = {:.9g}", names[i], state[i]));
   }
   return fmt::format("{}", fmt::join(values, ", "));
@@ -181,7 +185,7 @@ std::vector<TableView> event_tables(const EventStudy& study) {
   table.add_scalar("time_canonical", "", "the same time, in the scene's canonical unit of time",
                    told_time(study.scene, study.map.time[0]));
   table.add_scalars("state_canonical", "", "the state of the chief at the event, canonical",
-                    told_components_of_state(study));
+                    told_of(study, told_state(study.scene, study.state())));
   table.add_scalar("position_rounding_m", "m",
                    "the rounding of a flown position: misses below it say nothing",
                    study.position_rounding_m);
@@ -201,9 +205,7 @@ std::vector<TableView> event_tables(const EventStudy& study) {
 }
 
 std::string event_map_csv(const EventStudy& study) {
-  const std::vector<std::string_view> all = variable_names(study.scene.system);
-  std::vector<std::string_view> names;
-  for (const std::size_t i : told_components(study.scene.system)) names.push_back(all[i]);
+  const std::vector<std::string_view> names = told_names(study);
   std::vector<std::string_view> series = {"time"};
   series.insert(series.end(), names.begin(), names.end());
   const FlowJet<double> map = told_polynomials(study);

@@ -188,16 +188,14 @@ EventMap<double> EventStudy::told_map() const {
   return result;
 }
 
-FunctionText event_function(const Scene& scene) {
+FunctionText event_function(const SystemSettings& system, const std::string& expression) {
   FunctionText function;
-  for (const std::string_view name : variable_names(scene.system)) {
-    function.variables.emplace_back(name);
+  for (const std::string_view name : variable_names(system)) function.variables.emplace_back(name);
+  if (system.own_text) {
+    function.parameters = system.own_text->parameters;
+    function.definitions = system.own_text->definitions;
   }
-  if (scene.system.own_text) {
-    function.parameters = scene.system.own_text->parameters;
-    function.definitions = scene.system.own_text->definitions;
-  }
-  function.outputs = {{"expression", scene.event->expression}};
+  function.outputs = {{"expression", expression}};
   return function;
 }
 
@@ -208,7 +206,8 @@ EventCondition<double> condition_of_expression(const Scene& scene) {
   const bool is_in_km = is_orbit(scene.system.model);
   const double length = is_in_km ? scene.units.length_km : 1;
   const double momentum = is_in_km ? length / scene.units.time_s : 1;
-  const auto list = std::make_shared<const OperationList>(record_function(event_function(scene)));
+  const auto list = std::make_shared<const OperationList>(
+      record_function(event_function(scene.system, scene.event->expression)));
   return [length, momentum, list](const SixNumbers<Series<double>>& z) {
     std::vector<Series<double>> inputs;
     for (std::size_t i = 0; i < 6; ++i) {

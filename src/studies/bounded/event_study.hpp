@@ -39,8 +39,8 @@ struct EventStudy {
   EventMap<double> told_map() const;  ///< in the units that the user is told, see told_units
 };
 
-/// The text of the condition of a scene's event that is an expression.
-FunctionText event_function(const Scene& scene);
+/// The text of a condition that is an expression of a system's variables.
+FunctionText event_function(const SystemSettings& system, const std::string& expression);
 
 /// The condition of a scene's event.
 EventCondition<double> event_condition(const Scene& scene);
