@@ -57,6 +57,11 @@ class ParsedFunction {
     if (uses_time_) time_ = inputs[next];
     for (Part* part : order_) {
       part->value = value_of(*part);
+      // A constant that has a name in such a text is an operation at this place of the list.
+      const bool is_operation = is_literal_ && part->kind == Part::Kind::definition;
+      if (is_operation && part->value->is_constant() && !inputs.empty()) {
+        inputs.front().recorder()->constant_value(part->value->constant());
+      }
     }
     std::vector<Expression> result;
     for (const Part& part : parts_) {
