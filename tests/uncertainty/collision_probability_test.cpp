@@ -77,7 +77,7 @@ TEST(CollisionProbability, AgreesWithPublishedSamplesOfSlowEncounters) {
 }
 
 TEST(CollisionProbabilityAtLength, AgreesWithPublishedSamplesOfSlowEncounters) {
-  expect_published(test::published_encounters(), 30'000);
+  expect_published(test::published_encounters(), 12'000);
 }
 
 void expect_weighted_and_plain_samples_agree(const std::vector<int>& cases, long samples) {
@@ -102,7 +102,7 @@ TEST(CollisionProbability, WeightedAndPlainSamplesAgree) {
 }
 
 TEST(CollisionProbabilityAtLength, WeightedAndPlainSamplesAgree) {
-  expect_weighted_and_plain_samples_agree({2, 9}, 30'000);
+  expect_weighted_and_plain_samples_agree({2, 9}, 12'000);
 }
 
 TEST(CollisionProbability, OfAnInstantIsThatOfANormalVectorInABall) {
