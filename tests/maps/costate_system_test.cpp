@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
@@ -133,6 +134,31 @@ TEST(CostateSystem, FlowAboutTheChiefIsSymplectic) {
     EXPECT_LT(residual.scaled, 1e-13 * inversion.amplification) << "degree " << residual.degree;
     EXPECT_LT(residual.scaled, 1e-8) << "degree " << residual.degree;
   }
+}
+
+// A thrust of least energy that begins without costates stays without: costates have no terms of
+// states alone. All else is there: about a generic orbit no other coefficient vanishes.
+TEST(CostateSystem, OnlyCostatesOfStatesAloneVanish) {
+  ZonalGravity field;
+  field.radius = 0.9;
+  field.J[2] = 1.082626675e-3;
+  field.J[3] = -2.532436e-6;
+  const int order = 4;
+  const FlowJet<double> jet = jet_of(zonal_gravity(field), {1, 0.1, 0.2, 0, 0.6, 0.98}, order, 4.0);
+  const SeriesSpace& space = jet[0].space();
+  std::vector<std::size_t> vanishing(order + 1);
+  for (std::size_t component = 0; component < 12; ++component) {
+    for (std::size_t k = 0; k < space.size(); ++k) {
+      const auto exponents = space.exponents(k);
+      const bool is_of_states = std::all_of(exponents.begin() + 6, exponents.end(),
+                                            [](std::uint8_t exponent) { return exponent == 0; });
+      const bool vanishes = component >= 6 && is_of_states;
+      EXPECT_EQ(jet[component][k] == 0, vanishes) << component << " " << k;
+      if (vanishes) ++vanishing[static_cast<std::size_t>(space.degree(k))];
+    }
+  }
+  // Six costates, and as many monomials in six variables as each degree has.
+  EXPECT_EQ(vanishing, (std::vector<std::size_t>{6, 6 * 6, 6 * 21, 6 * 56, 6 * 126}));
 }
 
 /// The equation of Hamilton and Jacobi (that of Hamilton, Jacobi and Bellman for minus the least
