@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "../studies/checks/decay.hpp"
+#include "../studies/checks/force_sizes.hpp"
 #include "../text/scene_message.hpp"
 #include "scene_sections.hpp"
 
@@ -34,6 +35,12 @@ std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene&
                     scene.system.earth->atmosphere
                         ? "the air ends such orbits within days"
                         : "the air, which this scene leaves out, ends such orbits within days"));
+  }
+  if (scene.thruster && scene.thruster->acceleration_m_s2 < drag_m_s2(scene)) {
+    add("thruster",
+        fmt::format("weaker than the air, got {:.4g} m/s^2, should be more than the {:.4g} m/s^2 "
+                    "of drag on the chief at its start: it cannot hold that orbit",
+                    scene.thruster->acceleration_m_s2, drag_m_s2(scene)));
   }
   return warnings;
 }

@@ -163,4 +163,17 @@ std::vector<ForceSize> force_sizes(const Scene& asked) {
   return sizes;
 }
 
+double drag_m_s2(const Scene& scene) {
+  if (!scene.system.earth || !scene.system.earth->atmosphere) return 0;
+  SystemSettings settings = scene.system;
+  settings.earth->atmosphere.reset();
+  const auto acceleration = [&](const SystemSettings& forces) {
+    const SharedSystem system = make_system(forces, scene.canonical_radius);
+    return accelerations(*system, {scene.nominal}, scene.start_time, {0}).front();
+  };
+  const MetricUnits units = metric_units(scene);
+  return (acceleration(scene.system) - acceleration(settings)).norm() * units.length_m /
+         (units.time_s * units.time_s);
+}
+
 }  // namespace hamjet

@@ -24,4 +24,7 @@ struct ForceSize {
 /// exact_flow.
 std::vector<ForceSize> force_sizes(const Scene& scene);
 
+/// The drag on the chief at its start; 0 for scenes without air.
+double drag_m_s2(const Scene& scene);
+
 }  // namespace hamjet

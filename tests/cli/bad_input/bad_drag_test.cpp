@@ -134,6 +134,21 @@ TEST_F(BadDrag, DecayIsWarnedOf) {
   EXPECT_EQ(in_one_line(hamjet({"check", "good.toml"}).err).find("decays"), string::npos);
 }
 
+// Drag of half rho v^2 C_D A / m is some 1e-7 m/s^2 at 514 km.
+TEST_F(BadDrag, AThrusterWeakerThanTheAirIsWarnedOf) {
+  const auto said_of = [&](const string& acceleration) {
+    write("thrust.toml", drag_scene +
+                             "[transfer]\ncount = 2\nstart = { position_m = [0, -1000, 0] }\n"
+                             "end = { position_m = [0, -100, 0] }\n[thruster]\n"
+                             "acceleration_m_s2 = " +
+                             acceleration + "\n");
+    return in_one_line(hamjet({"check", "thrust.toml"}).err);
+  };
+  const string weak = said_of("1e-9");
+  EXPECT_NE(weak.find("thruster: weaker than the air, got 1e-09 m/s^2"), string::npos) << weak;
+  EXPECT_EQ(said_of("1e-5").find("weaker than the air"), string::npos);
+}
+
 TEST_F(BadDrag, OtherModelsHaveNoSpacecraft) {
   write("bad.toml", R"(schema = 1
 [system]
