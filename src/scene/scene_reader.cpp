@@ -73,7 +73,12 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
   Nominal nominal;
   const bool has_start = root.attempt([&] {
     nominal = read_start(root, scene, units);
-    if (root.has("units")) scene.told_units = canonical_units(nominal.told);
+    if (root.has("units")) {
+      scene.told_units = canonical_units(nominal.told);
+      if (scene.system.model == SystemModel::own) {
+        root.table("units").read_if_any("mass_kg", scene.mass_kg);
+      }
+    }
     scene.nominal_file = nominal.file;
     if (is_orbit(scene.system.model)) {
       scene.manoeuvres = read_manoeuvres(root.table("nominal"), scene.system, nominal.scale);
@@ -147,7 +152,10 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     scene.transfer = read_transfer(root.table("transfer"), scene, nominal, !root.has("assignment"));
   });
   if (!has_transfer || root.is_misspelt("transfer")) return scene;
-  read_table("thruster", [&](const auto& table) { scene.thruster = read_thruster(table, scene); });
+  read_table("thruster", [&](const auto& table) {
+    const bool has_box = root.has("bounded") && root.table("bounded").has("box");
+    scene.thruster = read_thruster(table, scene, has_box);
+  });
   root.attempt([&] {
     if (scene.transfer) require_keys_of_thrust(root, scene.transfer->thrust);
   });

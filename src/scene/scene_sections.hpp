@@ -228,8 +228,9 @@ DeputySettings read_deputy(const TableReader& deputy, const Scene& scene, const 
 TransferSettings read_transfer(const TableReader& transfer, const Scene& scene,
                                const Nominal& nominal, bool needs_ends);
 
-/// Table `[thruster]` of a scene whose table `[transfer]` has been read, if it has one.
-ThrusterSettings read_thruster(const TableReader& thruster, const Scene& scene);
+/// Table `[thruster]` of a scene whose table `[transfer]` has been read, if it has one; `has_box`
+/// says whether it has a table `[bounded.box]`.
+ThrusterSettings read_thruster(const TableReader& thruster, const Scene& scene, bool has_box);
 
 /// Table `[validity]`, checked against the parts of `scene` that have been read.
 ValiditySettings read_validity(const TableReader& validity, const Scene& scene,
@@ -265,7 +266,8 @@ EnergyConservationStudy read_energy_conservation(const TableReader& root);
 /// Each is one line for the user, with place, key and what would be right.
 std::vector<std::string> likely_slips(const TableReader& root, const Scene& scene);
 
-/// Warnings about spacecraft that the air brings down within the scene, and about a low perigee.
+/// Warnings about spacecraft that the air brings down within the scene, about a low perigee, and
+/// about a thruster that the air exceeds.
 std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene& scene);
 
 /// Table `[relative_hamiltonian]`: canonical times from the start to the duration.

@@ -31,13 +31,15 @@ const TableDescription& thruster_table() {
        {"attitude", form::choice({"RTN", "inertial"}), absent::value("RTN"),
         "the direction of a burn stays the same along R, T, N of the spacecraft's own orbit, or "
         "along the inertial axes"}},
-      "Also burns of this thruster in place of the impulses of `[transfer]`, about their times; "
-      "with `transfer.thrust = \"fuel-optimal\"` its thrust of least fuel in place of these, for which "
+      "Also burns of this thruster in place of the impulses of `[transfer]` and of "
+      "`[bounded.box]`, about their times; "
+      "with `transfer.thrust = \"fuel-optimal\"` its thrust of least fuel in place of these, for "
+      "which "
       "limits of burns and an attitude are refused, and which alone there is without an orbit."};
   return table;
 }
 
-ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
+ThrusterSettings read_thruster(const TableReader& table, const Scene& scene, bool has_box) {
   table.check_keys();
   const bool is_fuel_optimal =
       scene.transfer && scene.transfer->thrust == TransferThrust::fuel_optimal;
@@ -82,10 +84,12 @@ ThrusterSettings read_thruster(const TableReader& table, const Scene& scene) {
                                              *settings.shortest_burn_s, *settings.longest_burn_s));
   }
   table.read_if_any("attitude", settings.attitude);
-  if (!scene.transfer) {
-    table.fail("", "of no use without impulses, got no table [transfer], must be beside one");
+  if (!scene.transfer && !has_box) {
+    table.fail("",
+               "of no use without impulses, got no table [transfer] or [bounded.box], must be "
+               "beside one");
   }
-  if (scene.transfer->times.back() < 0) {
+  if (scene.transfer && scene.transfer->times.back() < 0) {
     table.fail("",
                fmt::format("transfer times before the start, got {:.6g} s, must be after it with "
                            "a thruster",

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "command_test.hpp"
@@ -147,6 +148,35 @@ TEST_F(LongMotion, BoundedKeepsADeputyInABox) {
   EXPECT_EQ(told["held"], true);
   EXPECT_NE(content(directory_ / "out/kept-bounded/report.html").find("In the box"),
             std::string::npos);
+  EXPECT_TRUE(told["burns_total_change_m_s"].is_null());
+  // Burns last as long as their changes take, and their sums are those of the rows.
+  succeed({"bounded", "kept.toml", "-q", "-o", "burns", "--set",
+           "thruster={thrust_N=1e-3, mass_kg=10, specific_impulse_s=200}"});
+  const Json burned = read_json(directory_ / "burns/summary.json")["box"];
+  const Table burns = read_table(directory_ / "burns/box.csv");
+  ASSERT_EQ(burns.rows.size(), table.rows.size());
+  double change = 0;
+  double farthest = 0;
+  for (std::size_t i = 0; i < burns.rows.size(); ++i) {
+    const double length_s = burns.number(i, "first_burn_s") + burns.number(i, "second_burn_s");
+    change += burns.number(i, "burns_m_s");
+    farthest = std::max(farthest, burns.number(i, "burns_farthest"));
+    // The mass falls by less than a ten-thousandth.
+    EXPECT_NEAR(burns.number(i, "burns_m_s"), 1e-4 * length_s, 1e-8 * length_s);
+    EXPECT_LE(burns.number(i, "burns_miss_m"), 3e-4);
+    EXPECT_EQ(burns.at(i, "burns_failure"), "");
+  }
+  EXPECT_NEAR(burned["burns_total_change_m_s"].get<double>(), change, 1e-12 * change);
+  EXPECT_EQ(burned["burns_farthest_of_all"].get<double>(), farthest);
+  // By the rocket equation.
+  EXPECT_NEAR(burned["burns_propellant_kg"].get<double>(),
+              -10 * std::expm1(-change / (200 * 9.80665)), 1e-9 * change);
+  const CommandResult weak = hamjet(
+      {"bounded", "kept.toml", "-q", "-o", "weak", "--set", "thruster={acceleration_m_s2=1e-9}"});
+  EXPECT_EQ(weak.exit_code, 1);
+  EXPECT_NE(weak.err.find("bounded.box: burns do not keep the deputy: return 1: "),
+            std::string::npos)
+      << weak.err;
   // Ways back of a quarter of a revolution bulge by half of 3 n^2 x t^2, n the mean motion, out of
   // a box this narrow.
   write("left.toml", scene("50",

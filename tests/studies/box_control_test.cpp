@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -70,6 +71,97 @@ TEST(BoxControl, LeavesAndReturnsAfterClohessyAndWiltshire) {
   EXPECT_LT((first.first_m_s - first_change).norm(), 10 * relative * size);
   EXPECT_LT((first.second_m_s + arrival * unit).norm(), 10 * relative * size);
   EXPECT_LT(first.miss_m, 1e-6);
+}
+
+/// A place, a velocity and a constant acceleration about a centre with mu = 1.
+using LongState = std::array<long double, 6>;
+LongState long_state(const std::vector<double>& z) { return {z[0], z[1], z[2], z[3], z[4], z[5]}; }
+
+/// Flies by the classical Runge-Kutta method in long double.
+LongState flown(LongState z, long double time, const Eigen::Vector3d& thrust) {
+  constexpr int steps = 2000;
+  const long double h = time / steps;
+  const auto rate = [&](const LongState& y) {
+    const long double r = std::sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
+    LongState f;
+    for (std::size_t i = 0; i < 3; ++i) {
+      f[i] = y[3 + i];
+      f[3 + i] = -y[i] / (r * r * r) + static_cast<long double>(thrust[static_cast<int>(i)]);
+    }
+    return f;
+  };
+  const auto along = [](const LongState& y, long double part, const LongState& f) {
+    LongState result = y;
+    for (std::size_t i = 0; i < 6; ++i) result[i] += part * f[i];
+    return result;
+  };
+  for (int k = 0; k < steps; ++k) {
+    const LongState k1 = rate(z);
+    const LongState k2 = rate(along(z, h / 2, k1));
+    const LongState k3 = rate(along(z, h / 2, k2));
+    const LongState k4 = rate(along(z, h, k3));
+    for (std::size_t i = 0; i < 6; ++i) z[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
+  }
+  return z;
+}
+
+BoxControl burned(double acceleration_m_s2) {
+  Scene scene = boxed({10, 0, 0}, 5, 0.06);
+  scene.bounded->box.return_orbits = {0.1};
+  scene.thruster.emplace();
+  scene.thruster->acceleration_m_s2 = acceleration_m_s2;
+  scene.thruster->attitude = BurnAttitude::inertial;
+  return keep_in_box(scene, {}, 2 * std::numbers::pi);
+}
+
+// Burns lead from the orbit before a return's first impulse to that behind its second: flown by
+// another program they end within the ten-thousandth of the box that is allowed.
+TEST(BoxControl, BurnsReplaceImpulses) {
+  const Scene scene = boxed({10, 0, 0}, 5, 0.06);
+  const BoxControl box = burned(1e-4);
+  ASSERT_GE(box.returns.size(), 1U);
+  EXPECT_EQ(box.burns_failure(), "");
+  EXPECT_TRUE(box.is_kept());
+  const double metres = scene.units.length_km * 1000;
+  const double unit_m_s2 = metres / (scene.units.time_s * scene.units.time_s);
+  for (const BoxReturn& one : box.returns) {
+    ASSERT_TRUE(one.burns && one.burns->plan.is_found());
+    const std::vector<FiniteBurn>& burns = one.burns->plan.burns;
+    ASSERT_EQ(burns.size(), 2U);
+    LongState z = long_state(one.deputy_before);
+    double now = 0;
+    for (const FiniteBurn& burn : burns) {
+      EXPECT_GT(burn.end - burn.start, 60 / scene.units.time_s);
+      z = flown(z, burn.start - now, Eigen::Vector3d::Zero());
+      z = flown(z, burn.end - burn.start, burn.direction * (1e-4 / unit_m_s2));
+      now = burn.end;
+    }
+    z = flown(z, one.duration - now, Eigen::Vector3d::Zero());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(static_cast<double>(z[i]), one.deputy_after[i], 1e-4 * 5 / metres);
+      EXPECT_NEAR(static_cast<double>(z[3 + i]), one.deputy_after[3 + i], 1e-4 * 5 / metres);
+    }
+    EXPECT_LE(one.burns->farthest, 1 + BoxControl::rounding);
+    EXPECT_GT(one.burns->farthest, 0.5);
+  }
+}
+
+// What burns take above the impulses falls with the square of their length.
+TEST(BoxControl, BurnsOfStrongThrustersAreImpulses) {
+  const auto loss = [](double acceleration_m_s2) {
+    const BoxReturn one = burned(acceleration_m_s2).returns.front();
+    return one.burns->plan.change_m_s() / one.change_m_s() - 1;
+  };
+  EXPECT_NEAR(loss(4e-4) / loss(8e-4), 4, 0.05);
+  EXPECT_LT(std::abs(loss(8e-4)), 1e-2);
+}
+
+TEST(BoxControl, TellsThatAThrusterIsTooWeak) {
+  const BoxControl box = burned(1e-7);
+  EXPECT_TRUE(box.is_held());
+  EXPECT_FALSE(box.is_kept());
+  EXPECT_NE(box.burns_failure().find("return 1: "), std::string::npos) << box.burns_failure();
+  EXPECT_NE(box.burns_failure().find("m/s^2 would do"), std::string::npos) << box.burns_failure();
 }
 
 using test::IndependentFlight;

@@ -130,7 +130,7 @@ int exit_code_of(const BoundedFormation& formation) {
   if (std::ranges::none_of(formation.deputies, is_found)) {
     return static_cast<int>(ErrorKind::numerical);
   }
-  const bool is_kept = (!formation.box || formation.box->is_held()) &&
+  const bool is_kept = (!formation.box || formation.box->is_kept()) &&
                        std::ranges::all_of(formation.deputies, [&](const BoundedDeputy& deputy) {
                          return is_as_asked(formation, deputy);
                        });
@@ -380,7 +380,7 @@ StudyReport bounded_report(const BoundedFormation& formation, const ReportOrigin
     report.failure =
         "bounded: none of the sizes has a deputy: " + formation.deputies.front().failure;
   } else if (report.exit_code != 0) {
-    const bool is_of_box = formation.box && !formation.box->is_held();
+    const bool is_of_box = formation.box && !formation.box->is_kept();
     report.failure = is_of_box ? box_failure(*formation.box)
                                : "bounded: a deputy is not of the size that was asked for, or "
                                  "passes below the surface; see the table";

@@ -2,13 +2,60 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <functional>
+#include <optional>
+#include <vector>
 
 #include "../../store/result_table.hpp"
 #include "../../text/quantity_text.hpp"
 
 namespace hamjet::io {
 namespace {
+
+/// The returns by burns, if there are any.
+std::vector<const BurnedReturn*> burned_returns(const BoxControl& box) {
+  std::vector<const BurnedReturn*> burned;
+  for (const BoxReturn& one : box.returns) {
+    if (one.burns) burned.push_back(&*one.burns);
+  }
+  return burned;
+}
+
+std::optional<double> burned_propellant_kg(const BoxControl& box) {
+  std::optional<double> sum;
+  for (const BurnedReturn* const one : burned_returns(box)) {
+    if (const auto taken = one->plan.propellant_kg()) sum = sum.value_or(0) + *taken;
+  }
+  return sum;
+}
+
+std::optional<double> burned_farthest(const BoxControl& box) {
+  std::optional<double> farthest;
+  for (const BurnedReturn* const one : burned_returns(box)) {
+    if (one->plan.is_found()) farthest = std::max(farthest.value_or(0), one->farthest);
+  }
+  return farthest;
+}
+
+/// What burns in place of the impulses take; empty without a thruster.
+std::string burns_text(const BoundedFormation& formation) {
+  const BoxControl& box = *formation.box;
+  const auto burned = burned_returns(box);
+  if (burned.empty() || !box.burns_failure().empty()) return "";
+  double longest = 0;
+  for (const BurnedReturn* const one : burned) {
+    for (const FiniteBurn& burn : one->plan.burns)
+      longest = std::max(longest, burn.end - burn.start);
+  }
+  std::string text =
+      fmt::format("; burns of the thruster in their place, of at most {}, take {:.4g} m/s",
+                  duration_text(longest * formation.scene.units.time_s), box.burns_m_s());
+  if (const auto taken = burned_propellant_kg(box)) text += fmt::format(" and {:.4g} kg", *taken);
+  return text + fmt::format(", and lead it at most {:.4g} half widths from the middle",
+                            burned_farthest(box).value_or(0));
+}
 
 std::string_view reference_text(const BoundedFormation& formation) {
   return formation.scene.bounded->box.reference == BoxReference::member
@@ -30,7 +77,8 @@ std::string box_verdict(const BoundedFormation& formation) {
     text += fmt::format(" of two impulses, {:.4g} m/s together or {:.4g} m/s a day",
                         box.change_m_s(), box.change_a_day_m_s());
   }
-  if (!box.is_held()) return text + ". Check failed: " + box_failure(box) + ".";
+  text += burns_text(formation);
+  if (!box.is_kept()) return text + ". Check failed: " + box_failure(box) + ".";
   return text + fmt::format(
                     "; flown, it is never farther from the middle than {:.4g} of the half "
                     "widths.",
@@ -38,6 +86,7 @@ std::string box_verdict(const BoundedFormation& formation) {
 }
 
 std::string box_failure(const BoxControl& box) {
+  if (box.is_held()) return "bounded.box: burns do not keep the deputy: " + box.burns_failure();
   return fmt::format(
       "bounded.box: the deputy was not kept inside, on its way back it was up to {:.4g} half "
       "widths from the middle; other return_orbits (shorter ones) or a wider box may keep it",
@@ -89,6 +138,40 @@ TableView box_table(const BoundedFormation& formation) {
             &BoxReturn::miss_m);
   table.add("farthest", "", "the farthest from the middle on the way, in half widths",
             &BoxReturn::farthest);
+  table.add_scalar("burns_total_change_m_s", "m/s",
+                   "the sum of the changes of all burns in place of the impulses",
+                   burned_returns(box).empty() ? std::nullopt : std::optional(box.burns_m_s()));
+  table.add_scalar("burns_propellant_kg", "kg", "the propellant of all burns",
+                   burned_propellant_kg(box));
+  table.add_scalar("burns_farthest_of_all", "",
+                   "the farthest that the deputy is from the middle on returns by burns, in half "
+                   "widths",
+                   burned_farthest(box));
+  const auto of_burns = [](auto value) {
+    return [value](const BoxReturn& one) {
+      using Value = std::remove_cvref_t<std::invoke_result_t<decltype(value), const BurnedReturn&>>;
+      const bool is_found = one.burns && one.burns->plan.is_found();
+      return is_found ? std::optional<Value>(std::invoke(value, *one.burns)) : std::nullopt;
+    };
+  };
+  const auto length_s = [=](std::size_t burn) {
+    return of_burns([=](const BurnedReturn& one) {
+      return (one.plan.burns[burn].end - one.plan.burns[burn].start) * unit;
+    });
+  };
+  table.add("first_burn_s", "s", "the length of the burn in place of the first impulse",
+            length_s(0));
+  table.add("second_burn_s", "s", "the length of the burn in place of the second", length_s(1));
+  table.add("burns_m_s", "m/s", "the sum of the velocity changes of both burns",
+            of_burns([](const BurnedReturn& one) { return one.plan.change_m_s(); }));
+  table.add("burns_miss_m", "m", "the distance at which burns miss the end of the impulses",
+            of_burns([](const BurnedReturn& one) { return one.plan.miss_m; }));
+  table.add("burns_farthest", "",
+            "the farthest from the middle on the way by burns, in half widths",
+            of_burns(&BurnedReturn::farthest));
+  table.add(
+      "burns_failure", "", "why burns cannot replace the impulses; empty where they can",
+      [](const BoxReturn& one) { return one.burns ? one.burns->plan.failure : std::string(); });
   return std::move(table).view(box.returns, {box.returns.size()});
 }
 

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "../../algebra/state_sums.hpp"
-#include "../../integrators/taylor_flow.hpp"
 #include "../exact_flow.hpp"
 #include "../formation/single_transfer.hpp"
 #include "../jets_along_time.hpp"
 #include "../thinned_list.hpp"
+#include "box_burns.hpp"
+#include "box_company.hpp"
 #include "hamjet/error.hpp"
 #include "hamjet/maps/position_boundary_values.hpp"
 #include "hamjet/studies/propagation.hpp"
@@ -22,69 +21,11 @@ namespace hamjet {
 namespace {
 
 constexpr double seconds_a_day = 86400;
-constexpr std::size_t numbers_of_state = 6;
 constexpr std::size_t drawn_places = 4001;
 /// Beyond this part of the box the deputy is looked at so many times as often: it may leave and
 /// come back between two looks.
 constexpr double near_face = 0.9;
 constexpr double more_looks = 10;
-
-/// The chief, the deputy and the reference, flown side by side.
-class Company {
- public:
-  Company(const Scene& scene, std::vector<double> chief, std::vector<double> deputy,
-          std::vector<double> member)
-      : settings_(&scene.bounded->box), units_(metric_units(scene)), now_(scene.start_time) {
-    for (const auto* state : {&chief, &deputy, &member}) {
-      states_.insert(states_.end(), state->begin(), state->end());
-    }
-  }
-
-  void advance(TaylorFlow& flow, double time) {
-    std::array<double, 3> times;
-    times.fill(time);
-    flow.advance(states_, now_, std::span(times).first(states_.size() / numbers_of_state));
-    now_ = now_ + time;
-    for (const double x : states_) {
-      if (!std::isfinite(x)) {
-        throw Error(ErrorKind::numerical, "bounded: the flight in the box ends in a collision");
-      }
-    }
-  }
-
-  const ClockTime& now() const { return now_; }
-  std::vector<double> chief() const { return state(0); }
-  std::vector<double> deputy() const { return state(1); }
-  void set_deputy(std::span<const double> deputy) {
-    std::copy(deputy.begin(), deputy.end(), states_.begin() + numbers_of_state);
-  }
-  /// The reference's deviation from the chief.
-  std::vector<double> reference() const {
-    if (settings_->reference == BoxReference::member) return state_difference(state(2), chief());
-    return frame().deviation({settings_->position_m, Eigen::Vector3d::Zero()});
-  }
-  std::vector<double> deviation() const { return state_difference(deputy(), chief()); }
-  ChiefFrame frame() const { return {chief(), units_, RelativeFrame::rtn_rotating}; }
-  Eigen::Vector3d place_m() const { return frame().relative(deviation()).position_m; }
-  Eigen::Vector3d from_reference_m() const {
-    return frame().relative(state_difference(deviation(), reference())).position_m;
-  }
-  /// The largest of the distances from the reference, in parts of the box.
-  double part() const {
-    return from_reference_m().cwiseQuotient(*settings_->half_widths_m).cwiseAbs().maxCoeff();
-  }
-
- private:
-  std::vector<double> state(std::size_t lane) const {
-    const auto first = states_.begin() + static_cast<std::ptrdiff_t>(lane * numbers_of_state);
-    return {first, first + numbers_of_state};
-  }
-
-  const BoxSettings* settings_;
-  MetricUnits units_;
-  ClockTime now_;  ///< the system's clock at the states
-  std::vector<double> states_;
-};
 
 class Keeper {
  public:
@@ -101,6 +42,7 @@ class Keeper {
         problem_(make_problem(scene)),
         integrator_(scene_gauss_integrator(scene, 1e-12)) {
     problem_.symmetry = FlowSymmetry::none;
+    if (scene.thruster) burns_.emplace(scene, problem_, flow_);
   }
 
   BoxControl run() {
@@ -206,6 +148,7 @@ class Keeper {
       throw Error(ErrorKind::numerical,
                   "bounded.box.return_orbits: no return of these times has an answer");
     }
+    if (burns_) best->told.burns = burns_->replace(best->told, company_);
     for (const Look& look : best->looks) note(look);
     time_ = best->looks.back().place.time;
     company_ = std::move(best->end);
@@ -268,7 +211,7 @@ class Keeper {
     told.chief_after = flown.end.chief();
     told.deputy_after = flown.end.deputy();
     Eigen::Vector3d change;
-    for (std::size_t i = 3; i < numbers_of_state; ++i) {
+    for (std::size_t i = 3; i < 6; ++i) {
       const double wanted = told.chief_after[i] + reference[i];
       change[static_cast<Eigen::Index>(i - 3)] = wanted - told.deputy_after[i];
       told.deputy_after[i] = wanted;
@@ -288,6 +231,7 @@ class Keeper {
   Company company_;
   ComputedProblem problem_;  ///< of the jets about the chief where it is
   IntegratorSettings integrator_;
+  std::optional<BoxBurns> burns_;
   double time_ = 0;
   ThinnedList<BoxControl::Place, drawn_places> places_;
   BoxControl result_;
@@ -299,6 +243,30 @@ double BoxControl::change_m_s() const {
   double sum = 0;
   for (const BoxReturn& one : returns) sum += one.change_m_s();
   return sum;
+}
+
+double BoxControl::burns_m_s() const {
+  double sum = 0;
+  for (const BoxReturn& one : returns) sum += one.burns ? one.burns->plan.change_m_s() : 0;
+  return sum;
+}
+
+std::string BoxControl::burns_failure() const {
+  for (std::size_t k = 0; k < returns.size(); ++k) {
+    if (!returns[k].burns) continue;
+    const BurnedReturn& burns = *returns[k].burns;
+    if (!burns.plan.is_found()) {
+      const auto& least = burns.plan.least_acceleration_m_s2;
+      return fmt::format("return {}: {}{}", k + 1, burns.plan.failure,
+                         least ? fmt::format("; {:.4g} m/s^2 would do", *least) : "");
+    }
+    if (burns.farthest > 1 + rounding && returns[k].farthest <= 1 + rounding) {
+      return fmt::format(
+          "return {}: by burns the deputy is up to {:.4g} half widths from the middle", k + 1,
+          burns.farthest);
+    }
+  }
+  return "";
 }
 
 BoxControl keep_in_box(const Scene& scene, const std::vector<double>& member, double revolution,

@@ -5,10 +5,18 @@
 #include <vector>
 
 #include "hamjet/detail/algebra/eigen.hpp"
+#include "hamjet/detail/studies/finite_burns.hpp"
 #include "hamjet/detail/studies/progress.hpp"
 #include "hamjet/studies/scene.hpp"
 
 namespace hamjet {
+
+/// Burns in place of a return's impulses, from the orbit before the first to that behind the
+/// second.
+struct BurnedReturn {
+  BurnPlan plan;        ///< with times since the first impulse
+  double farthest = 0;  ///< as BoxReturn::farthest, by these burns
+};
 
 /// A return into the box: two impulses, m/s along the chief's R, T and N at their moments.
 struct BoxReturn {
@@ -24,6 +32,7 @@ struct BoxReturn {
   std::vector<double> deputy_after;
   std::vector<double> chief_before;
   std::vector<double> chief_after;
+  std::optional<BurnedReturn> burns = {};  ///< if the scene has a thruster
 
   double change_m_s() const { return first_m_s.norm() + second_m_s.norm(); }
 };
@@ -51,8 +60,14 @@ struct BoxControl {
   static constexpr double rounding = 1e-6;
   /// Whether the deputy was never outside, on its ways back too.
   bool is_held() const { return farthest <= 1 + rounding; }
+  /// The same with the thruster's burns, if there is one.
+  bool is_kept() const { return is_held() && burns_failure().empty(); }
   double change_m_s() const;
   double change_a_day_m_s() const { return change_m_s() / days; }
+  double burns_m_s() const;  ///< the sum of the changes of all burns
+  /// Which return burns cannot replace, or lead outside of the box where its impulses do not, and
+  /// why; empty if there is none.
+  std::string burns_failure() const;
 };
 
 /// Keeps the scene's deputy in its box: it coasts until it is outside, then the cheapest return of
@@ -60,6 +75,8 @@ struct BoxControl {
 /// flown. The momenta of a return are those of the generating function F1 of the flow's jet, of the
 /// scene's order, about the chief from where it is (PositionBoundaryValues); the flights are by the
 /// full equations, with Taylor's method.
+///
+/// With a thruster each return is flown by burns too, as BoxBurns has them, to the same orbits.
 ///
 /// Where a return goes outside the deputy was not kept, as BoxControl::is_held tells.
 ///

@@ -98,15 +98,22 @@ std::vector<double> BurnFlight::burning_state(const CanonicalThruster& thruster,
   return state;
 }
 
-BurnFlight::Vector6 BurnFlight::missing(const CanonicalThruster& thruster,
-                                        const std::vector<Impulse>& at,
-                                        const Changes& changes) const {
+std::vector<double> BurnFlight::flown(const CanonicalThruster& thruster,
+                                      const std::vector<Impulse>& at, const Changes& changes,
+                                      double pace, const Look& look) const {
   std::vector<double> state = start_state();
   double now = 0;
   const auto fly = [&](const SharedSystem& system, double time) {
     if (time == now) return;
-    state = exact_flow(system, state, problem_.start_time + now, time - now);
-    now = time;
+    const bool is_seen = look && time > now;
+    const double from = now;
+    const double parts = is_seen ? std::ceil((time - from) / pace) : 1;
+    for (double part = 1; part <= parts; ++part) {
+      const double next = part == parts ? time : from + (time - from) * part / parts;
+      state = exact_flow(system, state, problem_.start_time + now, next - now);
+      now = next;
+      if (is_seen) look(now, {state.begin(), state.begin() + states});
+    }
   };
   const std::vector<BurnSpan> times = spans(thruster, at, changes);
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -116,7 +123,14 @@ BurnFlight::Vector6 BurnFlight::missing(const CanonicalThruster& thruster,
     state.resize(states);
   }
   fly(problem_.system, duration_);
-  const std::vector<double> missing = state_difference(end_, state_difference(state, chief_end_));
+  return state;
+}
+
+BurnFlight::Vector6 BurnFlight::missing(const CanonicalThruster& thruster,
+                                        const std::vector<Impulse>& at,
+                                        const Changes& changes) const {
+  const std::vector<double> missing =
+      state_difference(end_, state_difference(flown(thruster, at, changes), chief_end_));
   return Eigen::Map<const Vector6>(missing.data());
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "../../../dynamics/burning_system.hpp"
@@ -37,6 +38,13 @@ class BurnFlight {
   Changes changes_of(const std::vector<Impulse>& impulses) const;
   std::vector<BurnSpan> spans(const CanonicalThruster& thruster, const std::vector<Impulse>& at,
                               const Changes& changes) const;
+
+  /// What is called with time and state of the deputy at the end of each part of a flight.
+  using Look = std::function<void(double time, const std::vector<double>& deputy)>;
+  /// The flown state at the end. `look` is called at the end of each part of at most `pace` of what
+  /// is flown forward in time. Throws as exact_flow.
+  std::vector<double> flown(const CanonicalThruster& thruster, const std::vector<Impulse>& at,
+                            const Changes& changes, double pace = 0, const Look& look = {}) const;
 
   /// The wanted less the flown deviation from the chief at the end. Throws as exact_flow.
   Vector6 missing(const CanonicalThruster& thruster, const std::vector<Impulse>& at,

@@ -194,6 +194,14 @@ BurnPlan BurnSearch::plan() {
   return plan;
 }
 
+void BurnSearch::look_along(const BurnPlan& plan, double pace, const BurnFlight::Look& look) const {
+  Changes changes;
+  for (const FiniteBurn& burn : plan.burns) {
+    changes.emplace_back(burn.direction * burn.change_m_s / flight_.units().velocity_m_s());
+  }
+  flight_.flown(thruster_, impulses_, changes, pace, look);
+}
+
 // Burns are followed from the impulses, which infinite acceleration makes, to ever weaker thrust.
 std::optional<double> BurnSearch::least_acceleration_m_s2() {
   constexpr int most_attempts = 40;

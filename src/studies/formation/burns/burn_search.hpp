@@ -16,6 +16,8 @@ class BurnSearch {
 
   /// The burns of the scene's thruster, or why there are none; without its duration and impulses.
   BurnPlan plan();
+  /// Flies the burns of a plan that was found, and looks as BurnFlight::flown.
+  void look_along(const BurnPlan& plan, double pace, const BurnFlight::Look& look) const;
   /// Whether this plan has none because the thruster takes too long.
   bool is_too_weak() const { return is_too_weak_; }
   /// The least acceleration in m/s^2, to a hundredth and above the thruster's, with which burns

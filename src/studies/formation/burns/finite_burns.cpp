@@ -48,15 +48,20 @@ std::vector<std::size_t> points_to_burn(const TransferResult& result, std::size_
   return some;
 }
 
+}  // namespace
+
+SharedSystem burning_system(const ComputedProblem& problem, const ThrusterSettings& thruster) {
+  const bool turns = thruster.attitude == BurnAttitude::rtn;
+  return burning_system(*problem.system, {turns ? ThrustAxes::rtn : ThrustAxes::inertial,
+                                          thruster.exhaust_m_s.has_value()});
+}
+
+namespace {
+
 class BurnStudy {
  public:
   BurnStudy(const Scene& scene, const ComputedProblem& problem)
-      : scene_(scene),
-        problem_(problem),
-        burning_(burning_system(
-            *problem.system,
-            {scene.thruster->attitude == BurnAttitude::rtn ? ThrustAxes::rtn : ThrustAxes::inertial,
-             scene.thruster->exhaust_m_s.has_value()})) {}
+      : scene_(scene), problem_(problem), burning_(burning_system(problem, *scene.thruster)) {}
 
   BurnPlan plan(const std::vector<Impulse>& impulses, double duration, bool is_cheapest) const {
     BurnPlan plan;

@@ -4,6 +4,9 @@
 
 namespace hamjet {
 
+/// The problem's system under a thruster that burns.
+SharedSystem burning_system(const ComputedProblem& problem, const ThrusterSettings& thruster);
+
 /// The burns of the scene's thruster in place of the two impulses at up to 48 of the transfer times
 /// of a result whose least is known, and in place of its optimal impulses. Where the thruster is
 /// too weak for the cheapest impulses, the least acceleration that is not is found too.
