@@ -118,12 +118,12 @@ enum class KeyOf { reference, comparison };
 /// A new member of Scene does not compile here until it is named and added to the key of everything
 /// that it determines.
 std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
-  const auto& [name, title, precision, system, units, told_units, canonical_radius, nominal,
-               start_time, duration, manoeuvres, order, arcs, symmetry, coordinates, variables,
-               jet_times, integrators, separation, kinds, reference, relative_hamiltonian_times,
-               checks, comparison, figure, deputy, transfer, thruster, validity, eval, assignment,
-               uncertainty, bounded, event, periodic, output, ephemeris, nominal_file, warnings,
-               own_system] = scene;
+  const auto& [name, title, precision, system, units, told_units, mass_kg, canonical_radius,
+               nominal, start_time, duration, manoeuvres, order, arcs, symmetry, coordinates,
+               variables, jet_times, integrators, separation, kinds, reference,
+               relative_hamiltonian_times, checks, comparison, figure, deputy, transfer, thruster,
+               validity, eval, assignment, uncertainty, bounded, event, periodic, output, ephemeris,
+               nominal_file, warnings, own_system] = scene;
   KeyText key;
   key.add("key", 6);  // version of this text, and of the data that are kept under it
   key.add("reference stages", reference_stages);
@@ -140,6 +140,8 @@ std::string scene_key(const Scene& scene, int jet_order, KeyOf whose) {
   key.add("duration", duration);
   key.add("order", jet_order);
   key.add("variables", variables);
+  // Runs tell what a mass of 1 is, and do not compute with it.
+  static_cast<void>(mass_kg);
   // Runs are of orbits that coast.
   static_cast<void>(manoeuvres);
   // A comparison is about jets in positions and momenta, whichever coordinates a scene uses to

@@ -41,6 +41,12 @@ std::string grouped(std::string number) {
 }  // namespace
 
 std::string duration_text(double seconds) { return prefixed(seconds, "s"); }
+
+std::string days_behind(double seconds) {
+  const double days = seconds / 86400;
+  return std::abs(days) < 2 ? "" : fmt::format(" ({:.4g} days)", days);
+}
+
 std::string length_text(double metres, int digits) {
   const double km = metres / 1000;
   if (!(std::abs(km) >= 1 - 1e-12) || !(std::abs(km) < 1e12)) return prefixed(metres, "m");

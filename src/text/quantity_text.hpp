@@ -19,6 +19,9 @@ std::string counted(Number count, std::string_view noun) {
   return counted(std::string_view(std::to_string(count)), noun);
 }
 
+/// " (6.56 days)" behind a time in seconds of two days or more; empty for shorter ones.
+std::string days_behind(double seconds);
+
 /// A length with this number of digits and a prefix. From one kilometre on it is in kilometres
 /// without a further prefix, as is usual for orbits: "42,200 km".
 std::string length_text(double metres, int digits = 3);

@@ -2,8 +2,8 @@
 
 namespace hamjet::io {
 
-/// The unit of an axis or a column of times: minutes or hours where the numbers in seconds would be
-/// long.
+/// The unit of an axis or a column of times: minutes, hours or days where the numbers in seconds
+/// would be long.
 struct TimeAxis {
   double seconds;    ///< seconds in one unit
   const char* name;  ///< name of the unit, as in "transfer time (h)"

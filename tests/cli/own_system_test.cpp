@@ -49,6 +49,29 @@ TEST_F(OwnSystem, SaysWhatItsUnitsAre) {
   }
 }
 
+// A mass of 10 kg, a length of 2 km and a time of 3 s make momenta of 20000/3 kg m/s and energies
+// of 10 (2000/3)^2 J.
+TEST_F(OwnSystem, TellsWhatMomentaAndEnergiesAre) {
+  write("pendulum.toml", pendulum());
+  const std::vector<std::string> command = {
+      "run", "pendulum.toml", "-o", "out", "--set", "units={length_km=2, time_s=3, mass_kg=10}"};
+  const std::string out = in_one_line(succeed(command).out);
+  EXPECT_NE(
+      out.find("a mass of 1 is 10 kg, a momentum of 1 6666.67 kg m/s (of a length), an energy "
+               "of 1 4.44444e+06 J"),
+      std::string::npos)
+      << out;
+  const Json units = read_json(directory_ / "out/summary.json")["units"];
+  EXPECT_EQ(units["mass_kg"], 10);
+  EXPECT_DOUBLE_EQ(units["momentum_kg_m_s"].get<double>(), 20000.0 / 3);
+  EXPECT_DOUBLE_EQ(units["energy_J"].get<double>(), 4e7 / 9);
+  const CommandResult orbit =
+      hamjet({"run", HAMJET_SOURCE_DIR "/data/scenes/molniya.toml", "--set",
+              "units.mass_kg=10"});
+  EXPECT_EQ(orbit.exit_code, 3);
+  EXPECT_NE(orbit.err.find("units.mass_kg"), std::string::npos) << orbit.err;
+}
+
 // What the command advises is a table that the scene can have.
 TEST_F(OwnSystem, IsAdvisedOfATransferOfItsCoordinates) {
   write("pendulum.toml", pendulum());

@@ -218,6 +218,7 @@ inline const std::map<std::string, Place>& special_places() {
        {"own/pendulum", {vector_field, state, no_kinds}, "{x = \"v\", v = \"-2*x\"}"}},
       {"nominal.states", {"own/pendulum", {vector_field, state, no_kinds}, "[1, 2]"}},
       {"units.time_s", {"own/pendulum", {{"units", "{length_km=1, time_s=1}"}}}},
+      {"units.mass_kg", {"own/pendulum", {{"units", "{length_km=1, time_s=1, mass_kg=1}"}}}},
       {"nominal.a_km", {"", {}, "10000"}},
       {"nominal.position_km", {"", {cartesian}, "[7000, 1, 0]"}},
       {"nominal.velocity_km_s", {"", {cartesian}, "[0, 7, 1]"}},

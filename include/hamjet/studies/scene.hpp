@@ -35,6 +35,15 @@ struct CanonicalUnits {
   double time_s = 1;
 };
 
+/// What a momentum of a length, and an energy, of 1 are where a mass of 1 is that of a body.
+inline double momentum_kg_m_s(const CanonicalUnits& units, double mass_kg) {
+  return mass_kg * units.length_km * 1000 / units.time_s;
+}
+inline double energy_J(const CanonicalUnits& units, double mass_kg) {
+  const double speed_m_s = units.length_km * 1000 / units.time_s;
+  return mass_kg * speed_m_s * speed_m_s;
+}
+
 /// Factors that convert canonical numbers to other canonical units.
 struct CanonicalFactors {
   double length = 1;
@@ -121,6 +130,8 @@ struct Scene {
   /// same or, see SceneUnits, the chief's own. Absent if there is no such table; the user then
   /// reads numbers in `units`.
   std::optional<CanonicalUnits> told_units = {};
+  /// What a mass of 1 means in a system that the scene writes, if the scene says it.
+  std::optional<double> mass_kg = {};
   double canonical_radius = 0;  ///< radius_km in canonical units
   std::vector<double> nominal;  ///< initial state (q, p), canonical
   /// The system's clock at the nominal. A scene that is read starts at the epoch; one that flies

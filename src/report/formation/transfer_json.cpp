@@ -74,16 +74,15 @@ Json vector_json(const Eigen::Vector3d& vector) {
 }
 
 Json study_head_json(const Scene& scene, const std::string& study, const std::string& integrator) {
-  return {
-      {"scene", scene.name},
-      {"title", scene.title},
-      {"version", version},
-      {"study", study},
-      {"model", model_name(scene.system.model)},
-      {"system", system_json(scene.system)},
-      {"units", {{"length_km", told_units(scene).length_km}, {"time_s", told_units(scene).time_s}}},
-      {"order", scene.order},
-      {"integrator", integrator}};
+  return {{"scene", scene.name},
+          {"title", scene.title},
+          {"version", version},
+          {"study", study},
+          {"model", model_name(scene.system.model)},
+          {"system", system_json(scene.system)},
+          {"units", units_json(told_units(scene), scene.mass_kg)},
+          {"order", scene.order},
+          {"integrator", integrator}};
 }
 
 Json transfer_point_json(const TransferPoint& point, const Scene& scene) {

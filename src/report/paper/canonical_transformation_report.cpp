@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../../scene/scene_sections.hpp"
+#include "../../scene/systems/system_json.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
@@ -88,7 +89,7 @@ std::string summary_json(const CanonicalTransformationResult& result) {
                {"version", version},
                {"study", "canonical-transformation"},
                {"model", model_name(study.system.model)},
-               {"units", {{"length_km", study.units.length_km}, {"time_s", study.units.time_s}}},
+               {"units", units_json(study.units)},
                {"duration_canonical", study.duration},
                {"nominal_initial", study.nominal},
                {"energy", result.energy},

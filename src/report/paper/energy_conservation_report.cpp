@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "../../scene/systems/system_json.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
 #include "../drawing/study_figure.hpp"
@@ -103,7 +104,7 @@ std::string summary_json(const EnergyConservationResult& result) {
       {"version", version},
       {"study", "energy-conservation"},
       {"model", model_name(study.system.model)},
-      {"units", {{"length_km", study.units.length_km}, {"time_s", study.units.time_s}}},
+      {"units", units_json(study.units)},
       {"method", method_name(study)},
       {"first_step_canonical", study.first_step},
       {"duration_canonical", study.duration},

@@ -12,6 +12,7 @@
 #include "../../text/terminal_text.hpp"
 #include "../drawing/report_page.hpp"
 #include "../formation/transfer_json.hpp"
+#include "../own_units_text.hpp"
 #include "hamjet/error.hpp"
 
 namespace hamjet::io {
@@ -147,11 +148,12 @@ std::string periodic_verdict(const PeriodicStudy& study) {
   if (family == nullptr) {
     const PeriodicOrbit& orbit = members.front().orbit;
     std::string text = fmt::format(
-        "A periodic orbit of period {:.12g} ({:.8g} s) and energy {:.12g} closes to {:.1e} of its "
+        "A periodic orbit of period {:.12g} ({:.8g} s{}) and energy {:.12g} closes to {:.1e} of "
+        "its "
         "size; it is {}",
         told_time(study.scene, orbit.nodes.period), orbit.nodes.period * time_s,
-        told_energy(study, members.front()), orbit.closing,
-        orbit.monodromy.is_stable() ? "linearly stable" : "unstable");
+        days_behind(orbit.nodes.period * time_s), told_energy(study, members.front()),
+        orbit.closing, orbit.monodromy.is_stable() ? "linearly stable" : "unstable");
     for (std::size_t i = 0; i < orbit.monodromy.indices.size(); ++i) {
       text += fmt::format("{} {}", i == 0 ? ", with the stability indices" : " and",
                           index_text(orbit.monodromy.indices[i]));
@@ -271,7 +273,8 @@ StudyReport periodic_report(const PeriodicStudy& study, const ReportOrigin& orig
                   {"report.html", periodic_page(study, origin, drawer)},
                   {"summary.json", json_text(json) + "\n"}};
   report.drawing_problem = drawer.problem();
-  report.table = fmt::format("{}\n{}\n\n", study.scene.title, periodic_verdict(study)) +
+  report.table = fmt::format("{}\n{}\n{}\n", study.scene.title, periodic_verdict(study),
+                             own_mass_line(study.scene)) +
                  aligned_table(member_rows(study));
   for (const std::string& line : mark_lines(study)) report.table += line + "\n";
   return report;

@@ -222,7 +222,7 @@ std::string summary_json(const PropagationResult& result) {
                {"model", model_name(scene.system.model)},
                {"system", system_json(scene.system)},
                {"precision", scene.precision == Precision::extended ? "extended" : "double"},
-               {"units", {{"length_km", scene.units.length_km}, {"time_s", scene.units.time_s}}},
+               {"units", units_json(scene.units, scene.mass_kg)},
                {"order", scene.order},
                {"variables", variables},
                {"components", components},

@@ -300,13 +300,15 @@ std::string arcs_text(const Scene& scene, const ArcPlan& plan) {
 
 std::string summary_table(const PropagationResult& result) {
   const Scene& scene = result.scene;
+  const double duration_s = scene.duration * scene.units.time_s;
   std::string text = fmt::format(
       "{}\norder {} in {} of {}, {} a component\n"
-      "duration {:.10g} s, which is {:.10g} canonical\n",
+      "duration {:.10g} s{}, which is {:.10g} canonical\n",
       scene.title, scene.order, scene.variables.size(), counted(scene.nominal.size(), "variable"),
-      counted(result.problem.space->size(), "coefficient"), scene.duration * scene.units.time_s,
+      counted(result.problem.space->size(), "coefficient"), duration_s, days_behind(duration_s),
       scene.duration);
   if (const std::string units = own_units_text(scene); !units.empty()) text += units + "\n";
+  text += own_mass_line(scene);
   if (result.problem.components.size() < scene.nominal.size()) {
     text +=
         "the nominal stays in an invariant subspace: the components outside it are not computed\n";

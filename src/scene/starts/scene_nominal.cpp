@@ -95,6 +95,11 @@ const TableDescription& units_table() {
         form::positive(),
         absent::refused(),
         "what a time of 1 means",
+        {description_of(SystemModel::own).name}},
+       {"mass_kg",
+        form::positive(),
+        absent::other("unsaid"),
+        "what a mass of 1 means: momenta and energies are then told in kilograms too",
         {description_of(SystemModel::own).name}}},
       "Canonical numbers are read and given in this unit of length. `run` and `compare` compute in "
       "it; everything else computes in the chief's own unit, its distance at the start. The "

@@ -90,13 +90,22 @@ Json system_json(const SystemSettings& system) {
          of_air([](const EarthSettings& e) { return e.atmosphere->density_factor; })},
         {"bulge_exponent",
          of_air([](const EarthSettings& e) { return e.atmosphere->bulge_exponent; })},
-        {"density_file", of_air([](const EarthSettings& e) {
-           return text_or_null(e.atmosphere->density_file);
-         })},
+        {"density_file",
+         of_air([](const EarthSettings& e) { return text_or_null(e.atmosphere->density_file); })},
         {"drag_m2_kg", of_air([](const EarthSettings& e) { return e.drag_m2_kg; })},
         {"radiation_m2_kg", of_light([](const EarthSettings& e) { return e.radiation_m2_kg; })},
         {"shadow", of_light([](const EarthSettings& e) { return name_of(e.radiation->shadow); })},
         {"axes", earth->axes}};
+  }
+  return json;
+}
+
+Json units_json(const CanonicalUnits& units, const std::optional<double>& mass_kg) {
+  Json json = {{"length_km", units.length_km}, {"time_s", units.time_s}};
+  if (mass_kg) {
+    json["mass_kg"] = *mass_kg;
+    json["momentum_kg_m_s"] = momentum_kg_m_s(units, *mass_kg);
+    json["energy_J"] = energy_J(units, *mass_kg);
   }
   return json;
 }

@@ -11,6 +11,10 @@ namespace hamjet::io {
 /// of its table `[system]` with their values, defaults included.
 nlohmann::ordered_json system_json(const SystemSettings& system);
 
+/// What lengths and times of 1 mean and, where the scene says what a mass is, momenta and energies.
+nlohmann::ordered_json units_json(const CanonicalUnits& units,
+                                  const std::optional<double>& mass_kg = {});
+
 /// All members of the settings by name; parameters of other methods are null.
 nlohmann::ordered_json integrator_json(const IntegratorSettings& settings);
 
