@@ -164,6 +164,11 @@ TEST_F(LongMotion, BoundedKeepsADeputyInABox) {
     // The mass falls by less than a ten-thousandth.
     EXPECT_NEAR(burns.number(i, "burns_m_s"), 1e-4 * length_s, 1e-8 * length_s);
     EXPECT_LE(burns.number(i, "burns_miss_m"), 3e-4);
+    EXPECT_NEAR(burns.number(i, "first_burn_m_s") + burns.number(i, "second_burn_m_s"),
+                burns.number(i, "burns_m_s"), 1e-15);
+    // The middle of a burn is the time of its impulse.
+    EXPECT_NEAR(burns.number(i, "first_burn_start_s") + burns.number(i, "first_burn_s") / 2,
+                burns.number(i, "time_s"), 1e-3);
     EXPECT_EQ(burns.at(i, "burns_failure"), "");
   }
   EXPECT_NEAR(burned["burns_total_change_m_s"].get<double>(), change, 1e-12 * change);

@@ -154,14 +154,32 @@ TableView box_table(const BoundedFormation& formation) {
       return is_found ? std::optional<Value>(std::invoke(value, *one.burns)) : std::nullopt;
     };
   };
-  const auto length_s = [=](std::size_t burn) {
-    return of_burns([=](const BurnedReturn& one) {
-      return (one.plan.burns[burn].end - one.plan.burns[burn].start) * unit;
-    });
-  };
-  table.add("first_burn_s", "s", "the length of the burn in place of the first impulse",
-            length_s(0));
-  table.add("second_burn_s", "s", "the length of the burn in place of the second", length_s(1));
+  for (const std::size_t burn : {0, 1}) {
+    const std::string name = burn == 0 ? "first_burn" : "second_burn";
+    const std::string which =
+        burn == 0 ? "the burn in place of the first impulse" : "the burn in place of the second";
+    const auto of_burn = [=](auto value) {
+      return of_burns(
+          [=](const BurnedReturn& one) { return std::invoke(value, one.plan.burns[burn]); });
+    };
+    table.add(name + "_s", "s", "how long " + which + " lasts",
+              of_burn([=](const FiniteBurn& of) { return (of.end - of.start) * unit; }));
+    table.add(name + "_start_s", "s", "when " + which + " begins, since the start",
+              [=](const BoxReturn& one) {
+                const bool is_found = one.burns && one.burns->plan.is_found();
+                return is_found
+                           ? std::optional((one.time + one.burns->plan.burns[burn].start) * unit)
+                           : std::nullopt;
+              });
+    table.add(name + "_m_s", "m/s", "the velocity change of " + which,
+              of_burn(&FiniteBurn::change_m_s));
+    table.add_array(name + "_direction",
+                    {name + "_direction_1", name + "_direction_2", name + "_direction_3"}, "",
+                    "the unit vector of " + which +
+                        " along the axes of the thruster's attitude: R, T, N of the deputy's own "
+                        "orbit, or the inertial axes",
+                    of_burn(&FiniteBurn::direction));
+  }
   table.add("burns_m_s", "m/s", "the sum of the velocity changes of both burns",
             of_burns([](const BurnedReturn& one) { return one.plan.change_m_s(); }));
   table.add("burns_miss_m", "m", "the distance at which burns miss the end of the impulses",
