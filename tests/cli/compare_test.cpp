@@ -36,6 +36,14 @@ class Compare : public CommandTest {
     return text.substr(text.find("[compare]"));
   }
 
+  /// A comparison whose fits of orders take little time.
+  static std::vector<std::string> brief(std::vector<std::string> more = {}) {
+    std::vector<std::string> words = {"compare", "scene.toml", "-q", "--set",
+                                      "compare.time_budget_s=20"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
   std::filesystem::path out(const std::string& file) const {
     return directory_ / "out" / "scene" / file;
   }
@@ -86,7 +94,7 @@ TEST_F(Compare, AdviceIsASceneThatReachesTheError) {
 
 TEST_F(Compare, WithoutGnuplotThereAreTablesAndOneLine) {
   options_.environment.emplace_back("PATH", "/nowhere");
-  const CommandResult result = hamjet({"compare", "scene.toml", "-q"});
+  const CommandResult result = hamjet(brief());
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("gnuplot"), std::string::npos);
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -150,9 +158,9 @@ TEST_F(Compare, InterruptedAndResumedGivesTheSameFigures) {
 }
 
 TEST_F(Compare, ResumesACompleteComparisonWithoutChangingIt) {
-  succeed({"compare", "scene.toml", "-q"});
+  succeed(brief());
   const Json before = read_json(out("compare.json"));
-  succeed({"compare", "scene.toml", "-q", "--resume"});
+  succeed(brief({"--resume"}));
   const Json after = read_json(out("compare.json"));
   EXPECT_EQ(before["runs"], after["runs"]);
   EXPECT_EQ(before["cost_runs"], after["cost_runs"]);
@@ -161,7 +169,7 @@ TEST_F(Compare, ResumesACompleteComparisonWithoutChangingIt) {
 
 TEST_F(Compare, PlotsAsFilesOnRequest) {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
-  succeed({"compare", "scene.toml", "-q", "--plots", "png"});
+  succeed(brief({"--plots", "png"}));
   std::size_t plots = 0;
   for (const auto& file : std::filesystem::directory_iterator(out("plots"))) {
     EXPECT_EQ(content(file.path()).substr(1, 3), "PNG") << file.path();
