@@ -13,6 +13,7 @@
 #include "hamjet/algebra/extended.hpp"
 #include "line_restriction.hpp"
 #include "lines_side_by_side.hpp"
+#include "real_number.hpp"
 
 namespace hamjet {
 namespace {
@@ -109,7 +110,7 @@ std::vector<double> DirectionalFlow<Real>::relative_difference(const Lines& line
         size = std::max(size, unit * std::abs(static_cast<double>(wanted)));
       }
     }
-    result.push_back(difference > 0 ? difference / size : 0);
+    result.push_back(difference > 0 ? difference / std::max(size, least_with_digits) : 0);
   }
   return result;
 }

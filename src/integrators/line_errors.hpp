@@ -9,6 +9,7 @@
 
 #include "../algebra/raise_to.hpp"
 #include "jet_directions.hpp"
+#include "real_number.hpp"
 
 // The error of a jet, degree by degree, that independent runs along lines show.
 
@@ -100,7 +101,7 @@ std::vector<double> mean_line_differences(std::span<const Direction<Real>> direc
     double scale = std::sqrt(uncancelled[d] / root * largest[d]);
     if (10 * error[d] > along[d] && along[d] > 0) scale = std::min(along[d] / root, largest[d]);
     if (scale == 0) scale = std::max(along[d] / root, largest[d]);
-    error[d] = scale == 0 ? 0 : error[d] / root / scale;
+    error[d] = scale == 0 ? 0 : error[d] / root / std::max(scale, least_with_digits);
   }
   return error;
 }

@@ -1,8 +1,14 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace hamjet {
+
+/// A number of binary64 that died out below this one has no digits of its own: what a jet that
+/// contracts leaves of deviations.
+inline constexpr double least_with_digits =
+    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
 // Absolute values and finiteness for double and Extended alike.
 

@@ -110,6 +110,9 @@ class GaussIntegrator {
             stages_.slopes(), stages_.is_by_newton(), end_slope_};
   }
 
+  /// After so many rejections of a step its error estimate may be rounding.
+  static constexpr int trials_of_noise = 4;
+
   /// A step is repeated if its error estimate exceeds the tolerance by more than this factor. The
   /// estimate is proportional to h^(2s), so that repeating a step that is slightly too long does
   /// not pay. If every degree is controlled, the tolerance is far below the needed accuracy.
@@ -141,10 +144,22 @@ class GaussIntegrator {
   /// The present time of the system's clock.
   Real now() const { return start_time_ + (at_.time - at_.lost_time); }
 
-  /// Evaluates the slopes g at the constant terms of the state, at the present time.
-  void evaluate_end_slope(std::vector<Real>& slope) {
+  /// Measures by how much the slopes at the start of the step change with a rounding of the time.
+  /// This takes evaluations, and only steps that have been rejected several times may need it.
+  void measure_time_noise() {
+    if (!problem_.system->vector_field.depends_on_time()) return;
+    std::vector<Real> beside;
+    evaluate_slope(beside, now() * (1 + 2 * std::numeric_limits<Real>::epsilon()));
+    control_.note_time_noise(static_cast<double>(stages_.template largest_component<Real>(
+        [&](std::size_t c) { return beside[c] - end_slope_[c]; })));
+  }
+
+  void evaluate_end_slope(std::vector<Real>& slope) { evaluate_slope(slope, now()); }
+
+  /// Evaluates the slopes g at the constant terms of the state, at a time.
+  void evaluate_slope(std::vector<Real>& slope, const Real& time) {
     const std::size_t m = stages_.system().components();
-    point_.set_time(now());
+    point_.set_time(time);
     for (std::size_t c = 0; c < m; ++c) *point_.input(c) = jet_.constant(c);
     point_.evaluate_constant_values();
     slope.assign(m, Real(0));
@@ -173,7 +188,8 @@ class GaussIntegrator {
     Real h = at_.proposed;
     Real wanted = h;
     double growth = 1;
-    while (true) {
+    for (int trial = 1;; ++trial) {
+      if (trial == trials_of_noise) measure_time_noise();
       if (!settings_.step) {
         wanted = control_.sampling_step(h, *problem_.system, jet_.start());
         h = fit_to_span(wanted, remaining);

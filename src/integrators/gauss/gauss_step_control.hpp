@@ -55,9 +55,13 @@ class GaussStepControl {
     step.place = static_cast<double>(
         stages_.template largest_component<Real>([&](std::size_t c) { return jet_.constant(c); }));
     step.velocity = velocity();
+    step.time_noise = time_noise_;
     return rule_.error_estimate(step, static_cast<double>(h),
                                 [this](int degree) { return mode(degree); });
   }
+
+  /// Takes account of slopes that change so much with a rounding of the time.
+  void note_time_noise(double noise) { time_noise_ = std::max(time_noise_, noise); }
 
   /// The step h from a state, shortened so that the stages sample the field's shortest wave.
   template <class State>
@@ -127,6 +131,7 @@ class GaussStepControl {
   StageSlopes<Real, Lanes>& stages_;
   SummedJet<Real, Lanes>& jet_;
   GaussStepRule rule_;
+  double time_noise_ = 0;
 };
 
 }  // namespace hamjet

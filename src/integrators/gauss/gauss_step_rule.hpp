@@ -17,6 +17,7 @@ struct StepMeasures {
   double largest_gradient = 0;  ///< at all stages
   double place = 0;             ///< size of the part of the initial state on which g depends
   double velocity = 0;          ///< velocity at the start, for a second-order system
+  double time_noise = 0;        ///< what the rounding of the time changes in slopes, if it is known
 };
 
 /// The rule by which a Gauss method of s stages chooses its steps, from their measures: see
@@ -156,9 +157,11 @@ class GaussStepRule {
   }
 
   /// The rounding of a slope. Near rest the terms of a slope cancel, and each is about the gradient
-  /// times the distance from the origin; and denormal numbers have few digits or none.
+  /// times the distance from the origin; a time that is large beside the scale of the field has few
+  /// digits of it; and denormal numbers have few digits or none.
   double slope_noise(const StepMeasures& step) const {
-    return 8 * (epsilon_ * step.first_gradient * step.place + std::numeric_limits<double>::min());
+    return 8 * (epsilon_ * step.first_gradient * step.place + step.time_noise +
+                std::numeric_limits<double>::min());
   }
 
   /// Size of the slopes, which must not vanish where a single force passes through zero. For a
