@@ -362,7 +362,7 @@ void require_comparable(const Scene& scene) {
   if (!scene.separation) {
     throw Error(ErrorKind::scene,
                 "formation: missing, must give the separation at which errors are stated, for "
-                "example separation_km = 1 (separation_m for the oscillator)");
+                "example separation_km = 1 (separation_m for models without an orbit)");
   }
   if (scene.duration == 0) {
     throw Error(ErrorKind::scene,

@@ -49,8 +49,12 @@ class SeriesBuilder {
   std::vector<CandidateSeries> build() {
     std::vector<IntegrationMethod> methods = wanted_.methods;
     if (methods.empty()) {
+      const bool has_second_order_form = make_system(scene_).second_order.has_value();
       for (const MethodDescription& method : all_methods()) {
-        if (method.is_compared_by_default && method.is_built()) methods.push_back(method.method);
+        const bool serves = has_second_order_form || !method.needs_second_order_form;
+        if (method.is_compared_by_default && method.is_built() && serves) {
+          methods.push_back(method.method);
+        }
       }
     }
     for (const IntegrationMethod method : methods) add_method(method);

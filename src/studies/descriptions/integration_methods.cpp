@@ -102,7 +102,8 @@ MethodDescription stormer() {
       .compared_forms =
           [](const ComparisonSettings&) {
             return Forms{{{}, "Störmer", "stormer", 1}};
-          }};
+          },
+      .needs_second_order_form = true};
 }
 
 MethodDescription velocity_verlet() {
@@ -149,7 +150,8 @@ MethodDescription velocity_verlet() {
             }
             return forms;
           },
-      .is_compared_by_default = true};
+      .is_compared_by_default = true,
+      .needs_second_order_form = true};
 }
 
 MethodDescription newmark() {
@@ -182,7 +184,8 @@ MethodDescription newmark() {
           [](const ComparisonSettings&) {
             const Settings settings;
             return Forms{{settings, fmt::format("Newmark {}", settings.beta), "newmark", 2}};
-          }};
+          },
+      .needs_second_order_form = true};
 }
 
 MethodDescription fehlberg78() {

@@ -116,6 +116,8 @@ struct MethodDescription {
   std::vector<ComparedForm> (*compared_forms)(const ComparisonSettings&) =
       [](const ComparisonSettings&) { return std::vector<ComparedForm>(); };
   bool is_compared_by_default = false;
+  /// Whether it serves systems q' = M^-1 p, p' = F(q) alone, with a constant M.
+  bool needs_second_order_form = false;
 
   /// Whether the method with these settings is symplectic in (q, p).
   bool is_symplectic(const IntegratorSettings& given) const {
