@@ -14,11 +14,11 @@
 namespace hamjet::io {
 namespace {
 
-/// The returns by burns, if there are any.
+/// The returns that burns make.
 std::vector<const BurnedReturn*> burned_returns(const BoxControl& box) {
   std::vector<const BurnedReturn*> burned;
   for (const BoxReturn& one : box.returns) {
-    if (one.burns) burned.push_back(&*one.burns);
+    if (one.burns && one.burns->plan.is_found()) burned.push_back(&*one.burns);
   }
   return burned;
 }
@@ -34,7 +34,7 @@ std::optional<double> burned_propellant_kg(const BoxControl& box) {
 std::optional<double> burned_farthest(const BoxControl& box) {
   std::optional<double> farthest;
   for (const BurnedReturn* const one : burned_returns(box)) {
-    if (one->plan.is_found()) farthest = std::max(farthest.value_or(0), one->farthest);
+    farthest = std::max(farthest.value_or(0), one->farthest);
   }
   return farthest;
 }
@@ -139,8 +139,11 @@ TableView box_table(const BoundedFormation& formation) {
   table.add("farthest", "", "the farthest from the middle on the way, in half widths",
             &BoxReturn::farthest);
   table.add_scalar("burns_total_change_m_s", "m/s",
-                   "the sum of the changes of all burns in place of the impulses",
+                   "the sum of the changes of the burns that were found",
                    burned_returns(box).empty() ? std::nullopt : std::optional(box.burns_m_s()));
+  table.add_scalar("burns_held", "",
+                   "whether burns make all returns, and lead nowhere outside of the box",
+                   formation.scene.thruster ? std::optional(box.is_kept()) : std::nullopt);
   table.add_scalar("burns_propellant_kg", "kg", "the propellant of all burns",
                    burned_propellant_kg(box));
   table.add_scalar("burns_farthest_of_all", "",

@@ -13,8 +13,9 @@ namespace hamjet {
 /// it.
 class BoxBurns {
  public:
-  /// `problem` has the system of the flights, which `flow` integrates.
-  BoxBurns(const Scene& scene, const ComputedProblem& problem, TaylorFlow& flow);
+  /// `problem` has the system of the flights, which `flow` integrates; `revolution` is the chief's
+  /// nodal period, canonical.
+  BoxBurns(const Scene& scene, const ComputedProblem& problem, TaylorFlow& flow, double revolution);
 
   /// The burns of one return, or why there are none. `company` is at its first impulse.
   BurnedReturn replace(const BoxReturn& told, Company company);
@@ -22,6 +23,7 @@ class BoxBurns {
  private:
   BurnedReturn burns_of(const Scene& scene, const ComputedProblem& problem, const BoxReturn& told,
                         Company& company);
+  double allowed_miss_m(double revolution) const;
 
   const Scene& scene_;
   const ComputedProblem& problem_;
@@ -29,7 +31,8 @@ class BoxBurns {
   SharedSystem burning_;
   ThrusterSettings thruster_;       ///< with the mass that is left
   std::optional<double> last_end_;  ///< the end of the last burn
-  bool has_failed_ = false;
+  double allowed_miss_m_;
+  bool is_least_known_ = false;  ///< the least acceleration was looked for
 };
 
 }  // namespace hamjet

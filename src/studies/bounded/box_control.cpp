@@ -42,7 +42,7 @@ class Keeper {
         problem_(make_problem(scene)),
         integrator_(scene_gauss_integrator(scene, 1e-12)) {
     problem_.symmetry = FlowSymmetry::none;
-    if (scene.thruster) burns_.emplace(scene, problem_, flow_);
+    if (scene.thruster) burns_.emplace(scene, problem_, flow_, revolution);
   }
 
   BoxControl run() {
@@ -247,7 +247,9 @@ double BoxControl::change_m_s() const {
 
 double BoxControl::burns_m_s() const {
   double sum = 0;
-  for (const BoxReturn& one : returns) sum += one.burns ? one.burns->plan.change_m_s() : 0;
+  for (const BoxReturn& one : returns) {
+    if (one.burns && one.burns->plan.is_found()) sum += one.burns->plan.change_m_s();
+  }
   return sum;
 }
 
@@ -258,7 +260,7 @@ std::string BoxControl::burns_failure() const {
     if (!burns.plan.is_found()) {
       const auto& least = burns.plan.least_acceleration_m_s2;
       return fmt::format("return {}: {}{}", k + 1, burns.plan.failure,
-                         least ? fmt::format("; {:.4g} m/s^2 would do", *least) : "");
+                         least ? fmt::format("; {:.4g} m/s^2 would do for this one", *least) : "");
     }
     if (burns.farthest > 1 + rounding && returns[k].farthest <= 1 + rounding) {
       return fmt::format(

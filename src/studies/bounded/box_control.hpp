@@ -64,7 +64,7 @@ struct BoxControl {
   bool is_kept() const { return is_held() && burns_failure().empty(); }
   double change_m_s() const;
   double change_a_day_m_s() const { return change_m_s() / days; }
-  double burns_m_s() const;  ///< the sum of the changes of all burns
+  double burns_m_s() const;  ///< the sum of the changes of all burns that were found
   /// Which return burns cannot replace, or lead outside of the box where its impulses do not, and
   /// why; empty if there is none.
   std::string burns_failure() const;
