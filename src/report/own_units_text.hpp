@@ -20,7 +20,7 @@ inline std::string own_units_text(const Scene& scene) {
 /// What momenta and energies of 1 are, in a line of its own; empty where the scene says no mass.
 inline std::string own_mass_line(const Scene& scene) {
   if (!scene.mass_kg) return "";
-  const CanonicalUnits& units = told_units(scene);
+  const CanonicalUnits& units = scene.units;
   return fmt::format(
       "a mass of 1 is {:.6g} kg, a momentum of 1 {:.6g} kg m/s (of a length), an energy of 1 "
       "{:.6g} J\n",

@@ -36,11 +36,13 @@ std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene&
                         ? "the air ends such orbits within days"
                         : "the air, which this scene leaves out, ends such orbits within days"));
   }
-  if (scene.thruster && scene.thruster->acceleration_m_s2 < drag_m_s2(scene)) {
+  if (!scene.thruster) return warnings;
+  const double drag = drag_m_s2(scene);
+  if (scene.thruster->acceleration_m_s2 < drag) {
     add("thruster",
         fmt::format("weaker than the air, got {:.4g} m/s^2, should be more than the {:.4g} m/s^2 "
                     "of drag on the chief at its start: it cannot hold that orbit",
-                    scene.thruster->acceleration_m_s2, drag_m_s2(scene)));
+                    scene.thruster->acceleration_m_s2, drag));
   }
   return warnings;
 }

@@ -75,9 +75,7 @@ Scene read_flow_jet(const TableReader& root, SceneUnits units) {
     nominal = read_start(root, scene, units);
     if (root.has("units")) {
       scene.told_units = canonical_units(nominal.told);
-      if (scene.system.model == SystemModel::own) {
-        root.table("units").read_if_any("mass_kg", scene.mass_kg);
-      }
+      read_unit_of_mass(root.table("units"), scene);
     }
     scene.nominal_file = nominal.file;
     if (is_orbit(scene.system.model)) {

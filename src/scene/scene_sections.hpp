@@ -95,6 +95,8 @@ struct Nominal {
 double read_unit_of_length(const TableReader& units, SystemModel model);
 /// Table `[units]` of a system that the scene writes: what its numbers mean.
 CanonicalScale read_units_of_own(const TableReader& units);
+/// The key `mass_kg` of such a table, of a scene whose system and other units have been read.
+void read_unit_of_mass(const TableReader& units, Scene& scene);
 
 /// Table `[nominal]`. For an orbit the unit of length is `length_km` or, without this key or with
 /// SceneUnits::chiefs, the distance from the centre. The unit of time is sqrt(length^3 / mu), so

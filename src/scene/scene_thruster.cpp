@@ -31,11 +31,10 @@ const TableDescription& thruster_table() {
        {"attitude", form::choice({"RTN", "inertial"}), absent::value("RTN"),
         "the direction of a burn stays the same along R, T, N of the spacecraft's own orbit, or "
         "along the inertial axes"}},
-      "Also burns of this thruster in place of the impulses of `[transfer]` and of "
-      "`[bounded.box]`, about their times; "
-      "with `transfer.thrust = \"fuel-optimal\"` its thrust of least fuel in place of these, for "
-      "which "
-      "limits of burns and an attitude are refused, and which alone there is without an orbit."};
+      "Also burns of this thruster in place of the impulses of `[transfer]` and `[bounded.box]`, "
+      "about their times. With `transfer.thrust = \"fuel-optimal\"` the transfer has its thrust of "
+      "least fuel in their place: limits of burns and an attitude are then refused, and an own "
+      "system has this thrust alone."};
   return table;
 }
 

@@ -241,6 +241,13 @@ TEST(ExpressionText, RandomExpressionsHaveTheirValuesJetsAndTexts) {
 }
 
 TEST(ExpressionText, PrintsDerivedListsAndLongSums) {
+  // Its constant 0, the cosine of an angle, stands before the powers.
+  FunctionText angle;
+  angle.variables = {"x", "y"};
+  angle.outputs = {{"hamiltonian", "exp(-atan2(y, 0))*atan2(y, 0) - cos(x - t)*t^3/3^-x"}};
+  const OperationList with_angle = record_function(angle);
+  EXPECT_TRUE(is_same_list(record_function(print_list(with_angle, {"x", "y"}, {"hamiltonian"})),
+                           with_angle));
   const std::vector<std::string> names = {"x", "y", "z", "px", "py", "pz"};
   const DynamicalSystem system =
       zonal_gravity({1, 0.9, {{2, 1e-3}, {3, -2.5e-6}, {5, 1e-7}, {12, 3e-8}}});

@@ -35,10 +35,11 @@ struct CanonicalUnits {
   double time_s = 1;
 };
 
-/// What a momentum of a length, and an energy, of 1 are where a mass of 1 is that of a body.
+/// What a momentum of 1, along a coordinate that is a length, is where a mass of 1 is `mass_kg`.
 inline double momentum_kg_m_s(const CanonicalUnits& units, double mass_kg) {
   return mass_kg * units.length_km * 1000 / units.time_s;
 }
+/// What an energy of 1 is there.
 inline double energy_J(const CanonicalUnits& units, double mass_kg) {
   const double speed_m_s = units.length_km * 1000 / units.time_s;
   return mass_kg * speed_m_s * speed_m_s;

@@ -57,7 +57,8 @@ class ParsedFunction {
     if (uses_time_) time_ = inputs[next];
     for (Part* part : order_) {
       part->value = value_of(*part);
-      // A constant that has a name in such a text is an operation at this place of the list.
+      // A constant that has a name in such a text is an operation at this place, so that the text of
+      // a list is read as the same list.
       const bool is_operation = is_literal_ && part->kind == Part::Kind::definition;
       if (is_operation && part->value->is_constant() && !inputs.empty()) {
         inputs.front().recorder()->constant_value(part->value->constant());

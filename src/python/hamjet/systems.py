@@ -75,10 +75,12 @@ class System:
 
         start: (q, p) or the states as numbers, or a dict of them by name, in which what is left out
         is 0. duration: in the system's own time. order: of the jet. units: what lengths and times of
-        1 mean, {"length_km": ..., "time_s": ...} and "mass_kg" if momenta and energies are to be
-        told in kilograms; without it metres and seconds. parameters: other values of some. variables: names of those to expand in, parameters among them if you like,
-        as in ["x", "px", "mu"]; by default coordinates and momenta, or the states. tables: further tables of the scene, such as
-        {"generating_function": {"kinds": ["F1"]}}; entries of "jet" are added to its table.
+        1 mean, {"length_km": ..., "time_s": ...}, and "mass_kg" if momenta and energies are to be
+        told in kilograms; without it metres and seconds. parameters: other values of some.
+        variables: names of those to expand in, parameters among them if you like, as in ["x", "px",
+        "mu"]; by default coordinates and momenta, or the states. tables: further tables of the
+        scene, such as {"generating_function": {"kinds": ["F1"]}}; entries of "jet" are added to its
+        table. Results of a vector field have its adjoint variables, which are 0, behind the states.
         """
         system = self.tables()
         if parameters:

@@ -349,6 +349,8 @@ std::string singular_time_text(const SingularTime& singular, double unit_s, int 
 }
 
 std::string time_text(double seconds) {
+  const std::string days = days_behind(seconds);
+  if (!days.empty() || std::abs(seconds) < 60) return fmt::format("{:.6g} s{}", seconds, days);
   return fmt::format("{:.6g} s ({:.1f} min)", seconds, seconds / 60);
 }
 

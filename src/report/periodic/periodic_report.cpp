@@ -148,9 +148,9 @@ std::string periodic_verdict(const PeriodicStudy& study) {
   if (family == nullptr) {
     const PeriodicOrbit& orbit = members.front().orbit;
     std::string text = fmt::format(
-        "A periodic orbit of period {:.12g} ({:.8g} s{}) and energy {:.12g} closes to {:.1e} of "
-        "its "
-        "size; it is {}",
+        "A periodic orbit of period {:.12g}, which is {:.8g} s{}, and energy {:.12g} closes to "
+        "{:.1e} of "
+        "its size; it is {}",
         told_time(study.scene, orbit.nodes.period), orbit.nodes.period * time_s,
         days_behind(orbit.nodes.period * time_s), told_energy(study, members.front()),
         orbit.closing, orbit.monodromy.is_stable() ? "linearly stable" : "unstable");

@@ -145,6 +145,24 @@ double read_unit_of_length(const TableReader& units, SystemModel model) {
   return units.number("length_km");
 }
 
+void read_unit_of_mass(const TableReader& units, Scene& scene) {
+  if (scene.system.model != SystemModel::own || !units.has("mass_kg")) return;
+  if (!scene.system.own_text->is_hamiltonian()) {
+    units.fail("mass_kg",
+               "of no use, got a vector field, which has no momenta and no energy; must "
+               "be left out");
+  }
+  const double mass_kg = units.positive_number("mass_kg");
+  for (const double size :
+       {momentum_kg_m_s(scene.units, mass_kg), energy_J(scene.units, mass_kg)}) {
+    if (std::isnormal(size)) continue;
+    units.fail("mass_kg", fmt::format("out of range, got {:.6g}, must be such that momenta and "
+                                      "energies of 1 are within binary64",
+                                      mass_kg));
+  }
+  scene.mass_kg = mass_kg;
+}
+
 CanonicalScale read_units_of_own(const TableReader& units) {
   units.check_keys();
   return {Extended(units.number("length_km")), Extended(units.number("time_s"))};

@@ -38,7 +38,7 @@ void require_formation_problem(const Scene& scene, bool has_table, std::string_v
   if (!is_orbit(scene.system.model))
     refuse(table,
            "is about a deputy and a chief in orbit, got a model "
-           "that is no orbit, must be zonal-gravity or kepler");
+           "that is no orbit, must be earth, zonal-gravity or kepler");
   require_symplectic_jets(scene, table);
 }
 

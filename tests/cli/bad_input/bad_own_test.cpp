@@ -59,8 +59,11 @@ TEST_F(BadOwn, VariablesAreOneLine) {
       {"momenta = [0, 1]", "momenta = [0, nan]", {"nominal.momenta.1: not finite"}},
       {"momenta = [0, 1]", "velocities = [0, 1]", {"nominal.velocities", "momenta"}},
       {"[nominal]", "[units]\nlength_km = 9\n[nominal]", {"units.time_s: missing", "above 0"}},
+      {"[nominal]",
+       "[units]\nlength_km = 1e200\ntime_s = 1e-200\nmass_kg = 5\n[nominal]",
+       {"units.mass_kg: out of range", "within binary64"}},
       {"model = \"own\"", "model = \"own\"\nmu_km3_s2 = 4e5", {"system.mu_km3_s2", "no key"}}};
-  ASSERT_EQ(mistakes.size(), 10U);
+  ASSERT_EQ(mistakes.size(), 11U);
   expect_each_refused(own_scene, mistakes);
 }
 
