@@ -15,6 +15,7 @@ struct GaussStepping {
   Real proposed = 0;   ///< size of the next step
   Real previous_step = 0;
   long remaining_steps = 0;  ///< for fixed steps
+  double time_noise = 0;     ///< see StepMeasures
 };
 
 /// The nominal of a Gauss integration between two steps: all data on which its next steps depend.

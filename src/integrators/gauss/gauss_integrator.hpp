@@ -150,8 +150,9 @@ class GaussIntegrator {
     if (!problem_.system->vector_field.depends_on_time()) return;
     std::vector<Real> beside;
     evaluate_slope(beside, now() * (1 + 2 * std::numeric_limits<Real>::epsilon()));
-    control_.note_time_noise(static_cast<double>(stages_.template largest_component<Real>(
-        [&](std::size_t c) { return beside[c] - end_slope_[c]; })));
+    at_.time_noise =
+        std::max(at_.time_noise, static_cast<double>(stages_.template largest_component<Real>(
+                                     [&](std::size_t c) { return beside[c] - end_slope_[c]; })));
   }
 
   void evaluate_end_slope(std::vector<Real>& slope) { evaluate_slope(slope, now()); }
@@ -208,13 +209,16 @@ class GaussIntegrator {
         if (!is_solved) fail_fixed_step(h);
         if (settings_.estimates_step_error) {
           clock_.exclude(
-              [&] { statistics_.record_step_error(control_.error_estimate(step_, end_slope_)); },
+              [&] {
+                statistics_.record_step_error(
+                    control_.error_estimate(step_, end_slope_, at_.time_noise));
+              },
               statistics_.step_error_seconds);
         }
         if (!solve_degrees(mark)) fail_fixed_step(h);
         break;
       }
-      double error = is_solved ? control_.error_estimate(step_, end_slope_)
+      double error = is_solved ? control_.error_estimate(step_, end_slope_, at_.time_noise)
                                : std::numeric_limits<double>::infinity();
       if (error <= largest_excess() * *settings_.tolerance) {
         if (!solve_degrees(mark)) fail_fixed_step(h);

@@ -45,7 +45,7 @@ class GaussStepControl {
         [&](std::size_t c) { return stages_.slope_at_start(c) - end_slope[c]; }));
   }
 
-  double error_estimate(const Real& h, const std::vector<Real>& start_slope) {
+  double error_estimate(const Real& h, const std::vector<Real>& start_slope, double time_noise) {
     StepMeasures step;
     step.defect = start_defect(start_slope);
     step.slope = stages_.largest_slope();
@@ -55,13 +55,10 @@ class GaussStepControl {
     step.place = static_cast<double>(
         stages_.template largest_component<Real>([&](std::size_t c) { return jet_.constant(c); }));
     step.velocity = velocity();
-    step.time_noise = time_noise_;
+    step.time_noise = time_noise;
     return rule_.error_estimate(step, static_cast<double>(h),
                                 [this](int degree) { return mode(degree); });
   }
-
-  /// Takes account of slopes that change so much with a rounding of the time.
-  void note_time_noise(double noise) { time_noise_ = std::max(time_noise_, noise); }
 
   /// The step h from a state, shortened so that the stages sample the field's shortest wave.
   template <class State>
@@ -131,7 +128,6 @@ class GaussStepControl {
   StageSlopes<Real, Lanes>& stages_;
   SummedJet<Real, Lanes>& jet_;
   GaussStepRule rule_;
-  double time_noise_ = 0;
 };
 
 }  // namespace hamjet
