@@ -53,7 +53,7 @@ TEST(RealEncounters, AgreeWithPublishedSamples) {
 }
 
 TEST(RealEncountersAtLength, AgreeWithPublishedSamples) {
-  expect_published_of_real(test::real_encounters(), 80'000);
+  expect_published_of_real(test::real_encounters(), 200'000);
 }
 
 TEST(RealEncounters, AgreeWithFlightsOfPlainDeviations) {
