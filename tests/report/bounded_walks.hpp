@@ -222,6 +222,23 @@ inline BoundedFormation sample_bounded() {
   box.returns[1].second_m_s = {2, 3, 6};
   box.returns[1].miss_m = 0.0625;
   box.returns[1].farthest = 0.875;
+  formation.scene.thruster.emplace();
+  BurnedReturn& burned = box.returns[1].burns.emplace();
+  burned.farthest = 0.75;
+  burned.plan.miss_m = 0.03125;
+  burned.plan.burns.resize(2);
+  FiniteBurn& first = burned.plan.burns[0];
+  first.start = -0.03125;
+  first.end = 0.0078125;
+  first.direction = {0.6, 0, 0.8};
+  first.change_m_s = 13.5;
+  first.propellant_kg = 0.5;
+  FiniteBurn& second = burned.plan.burns[1];
+  second.start = 0.1875;
+  second.end = 0.3125;
+  second.direction = {0, 0.28, 0.96};
+  second.change_m_s = 7.25;
+  second.propellant_kg = 0.375;
   return formation;
 }
 
@@ -326,7 +343,23 @@ inline std::vector<Walk> bounded_walks() {
             {"first_m_s", {"m/s", {3, 4, 12}}},
             {"second_m_s", {"m/s", {2, 3, 6}}},
             {"miss_m", {"m", 0.0625}},
-            {"farthest", {"", 0.875}}}}};
+            {"farthest", {"", 0.875}},
+            {"burns_total_change_m_s", {"m/s", 20.75}},
+            {"burns_held", {"", true}},
+            {"burns_propellant_kg", {"kg", 0.875}},
+            {"burns_farthest_of_all", {"", 0.75}},
+            {"first_burn_s", {"s", 0.0390625 * 927.6}},
+            {"first_burn_start_s", {"s", (0.5 - 0.03125) * 927.6}},
+            {"first_burn_m_s", {"m/s", 13.5}},
+            {"first_burn_direction", {"", {0.6, 0, 0.8}}},
+            {"second_burn_s", {"s", 0.125 * 927.6}},
+            {"second_burn_start_s", {"s", (0.5 + 0.1875) * 927.6}},
+            {"second_burn_m_s", {"m/s", 7.25}},
+            {"second_burn_direction", {"", {0, 0.28, 0.96}}},
+            {"burns_m_s", {"m/s", 20.75}},
+            {"burns_miss_m", {"m", 0.03125}},
+            {"burns_farthest", {"", 0.75}},
+            {"burns_failure", {"", ""}}}}};
 }
 
 /// All of these.

@@ -23,7 +23,7 @@ TEST(StabilityPage, SaysWhichErrorsAreFarBelowTheirFloor) {
             std::string::npos);
 }
 
-TEST(StabilityPage, GrowthIsDrawnAlongHoursAndRevolutions) {
+TEST(StabilityPage, GrowthIsDrawnAlongDaysAndRevolutions) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   Scene scene;
   scene.system.model = SystemModel::kepler;
@@ -38,10 +38,10 @@ TEST(StabilityPage, GrowthIsDrawnAlongHoursAndRevolutions) {
   result.growth = {{"state error", {{2 * turn, 1e-15}, {200 * turn, 1e-12}}, 1.5, 1.5}};
   ChartDrawer drawer("gnuplot");
   const std::string page = stability_page({result}, {}, drawer);
-  EXPECT_NE(page.find("time (h)"), std::string::npos);
+  EXPECT_NE(page.find("time (days)"), std::string::npos);
   EXPECT_NE(page.find("revolutions"), std::string::npos);
   EXPECT_EQ(page.find("time (canonical)"), std::string::npos);
-  // Decades of revolutions, as the hours beside them.
+  // Decades of revolutions, as the days beside them.
   EXPECT_NE(page.find(">100<"), std::string::npos);
 }
 
