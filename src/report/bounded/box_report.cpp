@@ -18,7 +18,7 @@ namespace {
 std::vector<const BurnedReturn*> burned_returns(const BoxControl& box) {
   std::vector<const BurnedReturn*> burned;
   for (const BoxReturn& one : box.returns) {
-    if (one.burns && one.burns->plan.is_found()) burned.push_back(&*one.burns);
+    if (one.burned() != nullptr) burned.push_back(one.burned());
   }
   return burned;
 }
@@ -153,8 +153,8 @@ TableView box_table(const BoundedFormation& formation) {
   const auto of_burns = [](auto value) {
     return [value](const BoxReturn& one) {
       using Value = std::remove_cvref_t<std::invoke_result_t<decltype(value), const BurnedReturn&>>;
-      const bool is_found = one.burns && one.burns->plan.is_found();
-      return is_found ? std::optional<Value>(std::invoke(value, *one.burns)) : std::nullopt;
+      const BurnedReturn* const burned = one.burned();
+      return burned != nullptr ? std::optional<Value>(std::invoke(value, *burned)) : std::nullopt;
     };
   };
   for (const std::size_t burn : {0, 1}) {
@@ -169,9 +169,9 @@ TableView box_table(const BoundedFormation& formation) {
               of_burn([=](const FiniteBurn& of) { return (of.end - of.start) * unit; }));
     table.add(name + "_start_s", "s", "when " + which + " begins, since the start",
               [=](const BoxReturn& one) {
-                const bool is_found = one.burns && one.burns->plan.is_found();
-                return is_found
-                           ? std::optional((one.time + one.burns->plan.burns[burn].start) * unit)
+                const BurnedReturn* const burned = one.burned();
+                return burned != nullptr
+                           ? std::optional((one.time + burned->plan.burns[burn].start) * unit)
                            : std::nullopt;
               });
     table.add(name + "_m_s", "m/s", "the velocity change of " + which,

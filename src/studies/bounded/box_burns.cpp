@@ -18,8 +18,6 @@ constexpr RelativeFrame frame_of_returns = RelativeFrame::rtn_rotating;
 constexpr double part_missed = 1e-3;
 /// Flights miss by some tens of roundings of a place.
 constexpr double flights_floor = 64 * std::numeric_limits<double>::epsilon();
-/// With less than this share of its first mass a spacecraft is spent.
-constexpr double least_share_of_mass = 1e-3;
 constexpr int looks_a_return = 200;
 
 RelativeState relative(const std::vector<double>& deputy, const std::vector<double>& chief,

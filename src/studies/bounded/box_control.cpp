@@ -248,7 +248,7 @@ double BoxControl::change_m_s() const {
 double BoxControl::burns_m_s() const {
   double sum = 0;
   for (const BoxReturn& one : returns) {
-    if (one.burns && one.burns->plan.is_found()) sum += one.burns->plan.change_m_s();
+    if (const BurnedReturn* const burned = one.burned()) sum += burned->plan.change_m_s();
   }
   return sum;
 }

@@ -35,6 +35,8 @@ struct BoxReturn {
   std::optional<BurnedReturn> burns = {};  ///< if the scene has a thruster
 
   double change_m_s() const { return first_m_s.norm() + second_m_s.norm(); }
+  /// The burns that replace the impulses; null where there are none.
+  const BurnedReturn* burned() const { return burns && burns->plan.is_found() ? &*burns : nullptr; }
 };
 
 /// A deputy that was kept in a box, flown with the full equations of motion.

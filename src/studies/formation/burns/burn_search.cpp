@@ -14,9 +14,6 @@ namespace {
 /// A share of the sum of all changes below which an impulse is nothing that a burn could begin
 /// from.
 constexpr double nothing = 1e-9;
-/// A spacecraft of less mass than this share of its first is none, and its last acceleration is
-/// beyond what a flight follows.
-constexpr double least_share_of_mass = 1e-3;
 
 double sum_of(const std::vector<Eigen::Vector3d>& changes) {
   double sum = 0;

@@ -7,6 +7,10 @@
 
 namespace hamjet {
 
+/// A spacecraft of less mass than this share of its first is none, and its last acceleration is
+/// beyond what a flight follows.
+inline constexpr double least_share_of_mass = 1e-3;
+
 /// The mean time of the change of a burn from mass 1 on, in parts of the time that would burn all
 /// of it: the time is 1 - m, the change is x = -ln m of the exhaust's speed, and the mean is
 /// 1 - (1 - exp(-x)) / x.
