@@ -14,8 +14,9 @@ struct GaussStepping {
   Real lost_time = 0;  ///< see add_compensated; for controlled steps
   Real proposed = 0;   ///< size of the next step
   Real previous_step = 0;
-  long remaining_steps = 0;  ///< for fixed steps
-  double time_noise = 0;     ///< see StepMeasures
+  long remaining_steps = 0;     ///< for fixed steps
+  double time_noise = 0;        ///< see StepMeasures
+  bool is_slope_known = false;  ///< see NominalStages
 };
 
 /// The nominal of a Gauss integration between two steps: all data on which its next steps depend.
@@ -26,6 +27,7 @@ struct GaussCheckpoint {
   GaussStepping<Real> at;
   std::vector<Pack<Real, Lanes>> slopes;  ///< slopes of the last step's stages
   bool is_by_newton = false;              ///< see StageSlopes
+  double contraction = 0;                 ///< see StageIteration
   std::vector<Real> end_slope;
 };
 

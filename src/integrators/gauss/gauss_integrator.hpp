@@ -51,7 +51,9 @@ class GaussIntegrator {
         end_map_(make_end_map()),
         jet_(problem, settings.compensated_summation, end_map_.has_value()),
         control_(settings, stages_, jet_, controlled_order),
-        nominal_(*problem.system, settings, stages_, jet_, control_, end_slope_, statistics) {}
+        nominal_(
+            *problem.system, settings, stages_, jet_, control_, end_slope_, at_.is_slope_known,
+            [this] { evaluate_end_slope(); }, statistics) {}
 
   /// Runs to the end of the duration and calls the observer after every step.
   FlowJet<Real> run(const StepObserver<Real>& observer) {
@@ -82,7 +84,7 @@ class GaussIntegrator {
                          const StepObserver<Real>& observer) {
     jet_.resume(start.state, start.lost);
     at_ = start.at;
-    stages_.restore(start.slopes, start.is_by_newton);
+    stages_.restore(start.slopes, start.is_by_newton, start.contraction);
     end_slope_ = start.end_slope;
     if (at_.taken > 0) guess_ = {Real(1), at_.previous_step};
     while (at_.taken < last) {
@@ -99,6 +101,7 @@ class GaussIntegrator {
 
  private:
   FlowJet<Real> finish() {
+    if (problem_.duration != 0 && !at_.is_slope_known) evaluate_end_slope();
     statistics_.series_work = settings_.stages * stages_.evaluator().work();
     statistics_.wall_seconds = clock_.seconds();
     require_finite(jet_.value(), at_.time, "Gauss");
@@ -106,8 +109,8 @@ class GaussIntegrator {
   }
 
   GaussCheckpoint<Real, Lanes> checkpoint() {
-    return {jet_.constants(), jet_.lost_constants(),  at_,
-            stages_.slopes(), stages_.is_by_newton(), end_slope_};
+    return {jet_.constants(),       jet_.lost_constants(), at_,       stages_.slopes(),
+            stages_.is_by_newton(), stages_.contraction(), end_slope_};
   }
 
   /// After so many rejections of a step its error estimate may be rounding.
@@ -131,7 +134,7 @@ class GaussIntegrator {
 
   void begin() {
     if (problem_.duration == 0) return;
-    evaluate_end_slope(end_slope_);
+    evaluate_end_slope();
     if (settings_.step) {
       at_.remaining_steps = equal_step_count(problem_.duration, *settings_.step, "Gauss");
       at_.proposed = problem_.duration / Real(at_.remaining_steps);
@@ -155,7 +158,19 @@ class GaussIntegrator {
                                      [&](std::size_t c) { return beside[c] - end_slope_[c]; })));
   }
 
-  void evaluate_end_slope(std::vector<Real>& slope) { evaluate_slope(slope, now()); }
+  void evaluate_end_slope() {
+    evaluate_slope(end_slope_, now());
+    at_.is_slope_known = true;
+  }
+
+  /// The control of steps needs the slopes at the end of each. Fixed steps take those of the
+  /// collocation polynomial, until a doubt about the next step's solution asks for more: at one
+  /// point an evaluation of a field takes nearly as long as at all stages.
+  void find_end_slope() {
+    if (!settings_.step || settings_.estimates_step_error) return evaluate_end_slope();
+    for (std::size_t c = 0; c < end_slope_.size(); ++c) end_slope_[c] = stages_.slope_at_end(c);
+    at_.is_slope_known = false;
+  }
 
   /// Evaluates the slopes g at the constant terms of the state, at a time.
   void evaluate_slope(std::vector<Real>& slope, const Real& time) {
@@ -266,6 +281,7 @@ class GaussIntegrator {
                        static_cast<double>(problem_.duration));
     }
     advance_jet(h);
+    find_end_slope();
     account(&GaussProfile::update, mark);
   }
 
@@ -274,11 +290,12 @@ class GaussIntegrator {
     auto mark = profile_mark();
     step_ = end.at.previous_step;
     stages_.begin_step(now(), step_);
-    stages_.restore(end.slopes, end.is_by_newton);
+    stages_.restore(end.slopes, end.is_by_newton, end.contraction);
     stages_.evaluate_at_slopes(jet_.start(), statistics_);
     if (!solve_degrees(mark)) fail_fixed_step(step_);
     at_ = end.at;
     advance_jet(step_);
+    end_slope_ = end.end_slope;
     account(&GaussProfile::update, mark);
     guess_ = {Real(1), step_};
     ++statistics_.steps;
@@ -351,7 +368,6 @@ class GaussIntegrator {
   void advance_jet(const Real& h) {
     jet_.advance(stages_, h, end_map_ ? 0 : order_);
     if (end_map_) jet_.advance_by(*end_map_, stages_.evaluator(), order_);
-    evaluate_end_slope(end_slope_);
   }
 
   const FlowProblem<Real>& problem_;

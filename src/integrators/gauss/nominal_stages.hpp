@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "../summed_jet.hpp"
@@ -27,10 +29,13 @@ class NominalStages {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// `start_slope` must hold the slopes at the start of the step that is being solved.
+  /// `start_slope` must hold the slopes at the start of the step that is being solved, or those at
+  /// the end of the last step's polynomial if `is_slope_known` does not hold; `evaluate_slope`
+  /// replaces these by the slopes.
   NominalStages(const DynamicalSystem& system, const GaussSettings& settings,
                 StageSlopes<Real, Lanes>& stages, const SummedJet<Real, Lanes>& jet,
                 const GaussStepControl<Real, Lanes>& control, const std::vector<Real>& start_slope,
+                const bool& is_slope_known, std::function<void()> evaluate_slope,
                 IntegrationStatistics& statistics)
       : is_linear_(system.vector_field.is_linear_system()),
         settings_(settings),
@@ -38,6 +43,8 @@ class NominalStages {
         jet_(jet),
         control_(control),
         start_slope_(start_slope),
+        is_slope_known_(is_slope_known),
+        evaluate_slope_(std::move(evaluate_slope)),
         statistics_(statistics) {}
 
   /// Solves for a step h at a time of the system's clock, from the guess in the stages; if that
@@ -61,6 +68,7 @@ class NominalStages {
   }
 
   void set_constant_slopes() {
+    if (!is_slope_known_) evaluate_slope_();
     for (std::size_t c = 0; c < start_slope_.size(); ++c) stages_.slopes()[c] = P(start_slope_[c]);
   }
 
@@ -69,13 +77,19 @@ class NominalStages {
   /// the step. The equations of a linear system have a single solution.
   bool is_suspicious(const Real& h) {
     if (is_linear_) return false;
-    if (control_.start_defect(start_slope_) >
-        0.5 * stages_.largest_slope() + 2 * expected_change()) {
-      return true;
+    double defect = control_.start_defect(start_slope_);
+    // Slopes that go on from the last step's need no evaluation to be told from those of another
+    // root.
+    if (!is_slope_known_ && !(defect <= continuous * stages_.largest_slope())) {
+      evaluate_slope_();
+      defect = control_.start_defect(start_slope_);
     }
+    if (defect > 0.5 * stages_.largest_slope() + 2 * expected_change()) return true;
     // Controlled steps are short, and their error estimate would show a wrong root.
     return settings_.step && stages_.displacement(jet_.start()) > 4 * reach(h);
   }
+
+  static constexpr double continuous = 0x1p-10;
 
   /// The expected difference of the slopes between the start and the stages: |Dg| times the
   /// displacement. In a stiff system almost any difference is possible; see reach.
@@ -124,6 +138,8 @@ class NominalStages {
   const SummedJet<Real, Lanes>& jet_;
   const GaussStepControl<Real, Lanes>& control_;
   const std::vector<Real>& start_slope_;
+  const bool& is_slope_known_;
+  std::function<void()> evaluate_slope_;
   IntegrationStatistics& statistics_;
 };
 

@@ -32,6 +32,7 @@ struct StageCoefficients {
   std::vector<P> modes;          ///< weights of the Legendre modes, by degree
   P lagrange;
   P start;
+  P end;  ///< values at 1 of Lagrange's polynomials; the nodes are symmetric
 
   /// The coefficients, converted once for each number of stages, because the conversion takes as
   /// long as some steps.
@@ -76,6 +77,9 @@ struct StageCoefficients {
     }
     result.lagrange = pack_of(s, list(tableau.lagrange), false).value;
     result.start = pack_of(s, list(tableau.start), false).value;
+    result.end = pack_of(
+                     s, [&](std::size_t i) { return tableau.start[s - 1 - i]; }, false)
+                     .value;
     return result;
   }
 };

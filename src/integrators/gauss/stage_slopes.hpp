@@ -60,8 +60,9 @@ class StageSlopes {
     return sum;
   }
 
-  /// The collocation polynomial of the slopes, evaluated at the start of the step.
+  /// The collocation polynomial of the slopes, evaluated at the start and at the end of the step.
   Real slope_at_start(std::size_t c) const { return dot(system_.coefficients().start, slopes_[c]); }
+  Real slope_at_end(std::size_t c) const { return dot(system_.coefficients().end, slopes_[c]); }
 
   /// Evaluates the collocation polynomial of the slopes at start + length c_i, in units of its own
   /// step. The results are the first guess of the slopes of another step.
@@ -127,10 +128,13 @@ class StageSlopes {
   /// round-off, while slopes evaluated at the stages are small differences of large terms; after
   /// fixed-point iteration the evaluated slopes are better.
   bool is_by_newton() const { return is_by_newton_; }
-  /// Restores the slopes of an earlier solution.
-  void restore(const std::vector<P>& slopes, bool is_by_newton) {
+  /// See StageIteration.
+  double contraction() const { return iteration_.contraction(); }
+  /// Restores what the next steps take from an earlier solution.
+  void restore(const std::vector<P>& slopes, bool is_by_newton, double contraction) {
     slopes_ = slopes;
     is_by_newton_ = is_by_newton;
+    iteration_.restore_contraction(contraction);
   }
 
   /// Replaces the evaluated slopes by those of Newton's method, at degree 0. This is for unit mass
@@ -152,10 +156,15 @@ class StageSlopes {
       ++statistics.nominal_evaluations;
       for (std::size_t c = 0; c < stages.size(); ++c) slopes[c] = slope(c);
     };
-    is_by_newton_ = !iteration_.solve_constant_terms(state, slopes_, evaluate);
-    if (is_by_newton_) return solve_by_newton(state, statistics);
-    evaluate_at_slopes(state, statistics);
-    return true;
+    for (bool may_expect = true;; may_expect = false) {
+      const auto outcome = iteration_.solve_constant_terms(state, slopes_, evaluate, may_expect);
+      is_by_newton_ = outcome == iteration_.fails;
+      if (is_by_newton_) return solve_by_newton(state, statistics);
+      evaluate_at_slopes(state, statistics);
+      const auto evaluated = [this](std::size_t c) { return slope(c); };
+      if (outcome == iteration_.solved || iteration_.is_confirmed(slopes_, evaluated)) return true;
+      for (std::size_t c = 0; c < slopes_.size(); ++c) slopes_[c] = slope(c);
+    }
   }
 
   /// Solves degree 0 by Newton's method, with rho = g(Y) - G and Y = base + W G:
