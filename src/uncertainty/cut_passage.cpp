@@ -11,10 +11,8 @@ namespace {
 /// A time is in a passage if it is within this many standard deviations along the relative
 /// velocity; what lies outside has a probability of 6e-7.
 constexpr double within = 5;
-/// An encounter that takes longer than this fraction of a local period, or is slower than this
-/// fraction of the speed on the circle there, does not count as a passage.
-constexpr double longest_part = 1.0 / 32;
-constexpr double slowest_part = 0.02;
+/// An encounter that takes longer than this fraction of a local period does not count as a passage.
+constexpr double longest_part = 1.0 / 8;
 
 struct Interval {
   double from;
@@ -27,8 +25,6 @@ std::optional<Interval> passage_at(const EncounterTrajectories& linear, double r
   const Eigen::Vector3d position = state.mean.head<3>();
   const Eigen::Vector3d velocity = state.mean.tail<3>();
   const double speed = velocity.norm();
-  const double distance = linear.distance_from_centre(0, time);
-  if (!(speed > slowest_part / std::sqrt(distance))) return std::nullopt;
   const auto spread = state.by_deviation.topRows(3);
   const double along = (velocity.transpose() / speed * spread).norm();
   const double ahead = -position.dot(velocity) / (speed * speed);

@@ -17,9 +17,9 @@ namespace hamjet {
 ///
 /// and the passage takes (radius + s) / |v| to each side, where s is some number of standard
 /// deviations of the position along v. An edge is in a passage if it is so for five standard
-/// deviations, and the window is extended to nine. Only an encounter at a 50th of the orbital speed
-/// or more that takes less than a 32nd of a local period and comes near the radius within nine
-/// standard deviations counts as a passage; slower pairs keep company. Throws as validate and
+/// deviations, and the window is extended to nine. Only an encounter whose half takes less than an
+/// eighth of a local period, in which the line bends little, and that comes near the radius within
+/// nine standard deviations counts as a passage; slower pairs keep company. Throws as validate and
 /// integrate_gauss.
 std::optional<EncounterProblem> with_whole_passages(const EncounterProblem& problem);
 

@@ -19,11 +19,11 @@ constexpr double deviation_m = 20;
 constexpr double passage_miss_m = 5;
 
 /// A deputy that crosses the chief's plane at the start, 5 m above the chief.
-Scene crossing_at_the_start() {
+Scene crossing_at_the_start(double speed_m_s = 3000) {
   Scene scene = kepler_chief(0, 7000, std::sqrt(std::pow(7000.0, 3) / 398600.4415), 2);
   scene.duration = 0.05;
   scene.deputy =
-      DeputySettings{RelativeFrame::rtn_inertial, {{passage_miss_m, 0, 0}, {0, 0, 3000}}};
+      DeputySettings{RelativeFrame::rtn_inertial, {{passage_miss_m, 0, 0}, {0, 0, speed_m_s}}};
   scene.ephemeris = EphemerisSettings{"2026-03-01T06:00:00", "UTC", "GCRF", "EARTH"};
   StateUncertainty state;
   Vector<double> deviations(6);
@@ -55,8 +55,11 @@ double straight_probability() {
   return sum * passage_radius_m / steps;
 }
 
-TEST(CutEncounters, TheMessageIsOfTheWholePassageAndTheHeadlineWarns) {
-  const Scene scene = crossing_at_the_start();
+class CutEncountersOfSpeed : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(FastAndSlow, CutEncountersOfSpeed, ::testing::Values(3000.0, 20.0));
+
+TEST_P(CutEncountersOfSpeed, TheMessageIsOfTheWholePassageAndTheHeadlineWarns) {
+  const Scene scene = crossing_at_the_start(GetParam());
   const CollisionResult result = study_collision(scene, 1);
   ASSERT_TRUE(result.of_whole_passage);
   EXPECT_FALSE(result.is_cut_by_burn);
@@ -69,6 +72,22 @@ TEST(CutEncounters, TheMessageIsOfTheWholePassageAndTheHeadlineWarns) {
   const std::string headline = io::collision_section(scene, result).verdict;
   EXPECT_NE(headline.find("an edge of the window lies inside the passage"), std::string::npos)
       << headline;
+}
+
+// At 5 cm/s the uncertainty of 20 m takes more than an hour to pass: no straight line tells when
+// the encounter begins, so that a window of one's own is told of as what it is.
+TEST(CutEncounters, NoMessageStatesTheProbabilityOfAPartOfASlowEncounter) {
+  Scene scene = crossing_at_the_start(0.05);
+  scene.uncertainty->collision->from = -0.05;
+  CollisionResult result = study_collision(scene, 1);
+  ASSERT_FALSE(result.of_whole_passage);
+  ASSERT_NE(nearest_approach(result), nullptr);
+  EXPECT_FALSE(has_whole_passage(result));
+  EXPECT_FALSE(io::encounter_message(scene, result).collision_probability);
+  const std::string headline = io::collision_section(scene, result).verdict;
+  EXPECT_NE(headline.find("a part of a slow encounter"), std::string::npos) << headline;
+  result.watch.has_window = false;
+  EXPECT_TRUE(io::encounter_message(scene, result).collision_probability);
 }
 
 // What was not sampled has no interval, and its 0 is not told as one that was measured.

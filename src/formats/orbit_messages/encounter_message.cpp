@@ -100,11 +100,15 @@ ConjunctionDataMessage encounter_message(const Scene& scene, const CollisionResu
   message.relative_position_m = three(relative.position_m);
   message.relative_velocity_m_s = three(relative.velocity_m_s);
   const CollisionProbability& p = probability_of_passage(result);
-  message.collision_probability = p.probability;
-  message.collision_probability_method = "TAYLOR-MAP-SAMPLING";
-  message.comments.push_back(fmt::format(
-      "Collision: nearer than {:.9g} m in that window; {:g} % from {:.6e} to {:.6e}; order {}",
-      result.watch.radius_m, 100 * result.watch.confidence, p.lower, p.upper, result.order));
+  if (has_whole_passage(result)) {
+    message.collision_probability = p.probability;
+    message.collision_probability_method = "TAYLOR-MAP-SAMPLING";
+  }
+  message.comments.push_back(
+      fmt::format("Collision: nearer than {:.9g} m in that window: {:.6e}; {:g} % from {:.6e} to "
+                  "{:.6e}; order {}",
+                  result.watch.radius_m, p.probability, 100 * result.watch.confidence, p.lower,
+                  p.upper, result.order));
   for (const std::string& warning : result.warnings) {
     message.comments.push_back("Warning: " + warning);
   }

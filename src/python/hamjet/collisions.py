@@ -75,6 +75,8 @@ def _collisions(found: list[dict[str, Any]], pairs: tuple[int, ...]) -> Collisio
 def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Floats,
            frame: str, settings: Mapping[str, Any]) -> dict[str, Any]:
     difference = states[1] - states[0]
+    # A scene lasts from the epoch on; its window may lie before that.
+    duration_s = float(window_s[1] if window_s[1] > 0 else np.abs(window_s).max() or 1)
     return {
         "system": (settings["system"] if "model" in settings["system"]
                    else {**_hamjet.earth_system(), **settings["system"]}),
@@ -82,7 +84,7 @@ def _scene(states: Floats, covariances: Floats, radius_m: float, window_s: Float
                     "velocity_km_s": (states[0, 3:] / 1000).tolist()},
         "deputy": {"frame": "inertial", "position_m": difference[:3].tolist(),
                    "velocity_m_s": difference[3:].tolist()},
-        "jet": {"order": settings["order"], "duration_s": float(window_s[1])},
+        "jet": {"order": settings["order"], "duration_s": duration_s},
         "uncertainty": {
             "frame": frame, "covariance_m_m_s": covariances[0].tolist(), "seed": settings["seed"],
             "gaussian_in": settings["gaussian_in"],

@@ -186,6 +186,10 @@ UncertaintySection collision_section(const Scene& scene, const CollisionResult& 
     section.verdict +=
         " But the burn at the start lies inside the passage, of which this is a part.";
   }
+  if (!has_whole_passage(result)) {
+    section.verdict +=
+        " But the window is a part of a slow encounter, the rest of which it leaves out.";
+  }
   section.warnings = result.warnings;
   section.table = collision_table_text(result);
   section.title = "Collision";

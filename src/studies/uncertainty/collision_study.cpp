@@ -242,6 +242,12 @@ const UncertainApproach* nearest_approach(const CollisionResult& result) {
   return nearest == result.approaches.end() ? nullptr : &*nearest;
 }
 
+bool has_whole_passage(const CollisionResult& result) {
+  if (result.of_whole_passage || !result.watch.has_window) return true;
+  const UncertainApproach* const nearest = nearest_approach(result);
+  return nearest == nullptr || !nearest->is_cut;
+}
+
 CollisionResult study_collision(const Scene& scene, std::size_t threads,
                                 const ProgressCallback& progress) {
   require_coasting(scene);
@@ -339,6 +345,12 @@ CollisionResult study_collision(const Scene& scene, std::size_t threads,
     }
   }
   const UncertainApproach* const nearest = nearest_approach(result);
+  if (!has_whole_passage(result)) {
+    result.warnings.push_back(fmt::format(
+        "the approach at {:.6g} s is slow and not over within the window {:.9g} s to {:.9g} s: the "
+        "probability is of this window, not of the encounter",
+        nearest->time_s, result.from_s, result.to_s));
+  }
   const EncounterDeviation of_collisions = nearest
                                                ? deviation_of_meeting(linear.linear(nearest->time))
                                                : EncounterDeviation(EncounterDeviation::Zero());

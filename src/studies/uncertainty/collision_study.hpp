@@ -85,6 +85,10 @@ const CollisionProbability& probability_of_passage(const CollisionResult& result
 /// The approach at which the means are nearest; null if they have none in the window.
 const UncertainApproach* nearest_approach(const CollisionResult& result);
 
+/// Whether the probability for whole passages is known to be that of the nearest approach: not in a
+/// window of the scene's own that ends within it, if it is too slow for its whole to be found.
+bool has_whole_passage(const CollisionResult& result);
+
 /// The study of table `[uncertainty.collision]`. Throws as collision_probability and
 /// closest_approaches, and Error(scene) where both states are known exactly.
 CollisionResult study_collision(const Scene& scene, std::size_t threads,
