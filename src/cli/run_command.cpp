@@ -208,7 +208,7 @@ void check_flow_jet(const RunOptions& options, const std::string& file, const Sc
     const auto drift = deputy_drift(scene);
     text += fmt::format("               velocity {} m/s; {}\n",
                         io::vector_text(scene.deputy->start.velocity_m_s, 4),
-                        io::drift_text(drift, scene.deputy->start, scene.deputy->frame));
+                        io::drift_text(scene, drift, scene.deputy->start, scene.deputy->frame));
     if (const std::string elements = io::elements_text(drift); !elements.empty()) {
       text += fmt::format("               relative elements {}\n", elements);
     }

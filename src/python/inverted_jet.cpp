@@ -13,9 +13,9 @@ namespace {
 GeneratingFunctionKind chosen_kind(const io::StoredJet& stored, std::string_view kind) {
   if (stored.parameters > 0) {
     throw Error(ErrorKind::usage,
-                "partial inversion: the jet is expanded in parameters or ends with them, got "
-                "{}, must be one of positions and momenta alone, whose map has as many chosen "
-                "variables as remaining ones");
+                "partial inversion: the jet is expanded in parameters or ends with them, must be "
+                "one of positions and momenta alone, whose map has as many chosen variables as "
+                "remaining ones");
   }
   if (stored.variables != stored.components) {
     throw Error(ErrorKind::usage,

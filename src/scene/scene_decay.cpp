@@ -36,6 +36,17 @@ std::vector<std::string> warnings_of_decay(const TableReader& root, const Scene&
                         ? "the air ends such orbits within days"
                         : "the air, which this scene leaves out, ends such orbits within days"));
   }
+  if (scene.system.earth && scene.system.earth->atmosphere) {
+    const std::vector<double>& heights = scene.system.earth->atmosphere->heights_km;
+    if (!heights.empty() && (perigee_km < heights.front() || perigee_km > heights.back()) &&
+        std::isfinite(perigee_km)) {
+      add("system",
+          fmt::format("a table of densities elsewhere, got heights from {:.6g} to {:.6g} km beside "
+                      "a perigee {:.4g} km high, should reach it: beyond its ends the table goes "
+                      "on exponentially",
+                      heights.front(), heights.back(), perigee_km));
+    }
+  }
   if (!scene.thruster) return warnings;
   const double drag = drag_m_s2(scene);
   if (scene.thruster->acceleration_m_s2 < drag) {

@@ -249,7 +249,14 @@ Study read_document(const SceneDocument& document, const std::string& file_name,
   if (Scene* const scene = std::get_if<Scene>(&study)) {
     const std::vector<std::string> decays = warnings_of_decay(root, *scene);
     scene->warnings.insert(scene->warnings.end(), decays.begin(), decays.end());
-    light_nominal(*scene);
+    try {
+      light_nominal(*scene);
+    } catch (const Error& error) {
+      // That an orbit decays is why its light cannot be followed to the end.
+      if (scene->warnings.empty()) throw;
+      throw Error(error.kind(),
+                  fmt::format("{}\n{}", error.what(), fmt::join(scene->warnings, "\n")));
+    }
   }
   return study;
 }

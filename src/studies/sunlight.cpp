@@ -66,6 +66,7 @@ class LitFlight {
     const double km = settings.radius_km / canonical_radius;
     shadow_ = {canonical_radius, sun_radius_km / km};
     const double second = std::sqrt(settings.mu_km3_s2 / (km * km * km));
+    time_s_ = 1 / second;
     // A path that touches a boundary is inside for 0.01 s at most where that is passed over: by
     // less than a millimetre, of which the penumbra is a ten-millionth or less.
     least_step_ = 0.01 * second;
@@ -146,9 +147,9 @@ class LitFlight {
       if (!(std::abs(arc.span) > least_part * std::abs(to_)) && arc.span != to_ - time) {
         if (std::abs(time) < std::abs(needed_)) {
           throw Error(ErrorKind::numerical,
-                      fmt::format("the light along an orbit cannot be followed beyond t = {:.6g}: "
+                      fmt::format("the light along an orbit cannot be followed beyond {:.6g} s: "
                                   "it runs into a collision, or decays",
-                                  time));
+                                  time * time_s_));
         }
         has_ended_ = true;
         return arcs;
@@ -217,6 +218,7 @@ class LitFlight {
   std::vector<double> state_;
   std::shared_ptr<const BodyPosition> sun_;
   Shadow shadow_;
+  double time_s_ = 0;  ///< the unit of time
   double least_step_ = 0;
   std::array<bool, 3> inside_{};
   std::optional<ShadowCrossing> crossing_;

@@ -60,9 +60,17 @@ TEST(TerminalNumbers, OfADrift) {
   drift.per_revolution_m = -73;
   drift.period_difference_s = 0.25;
   const RelativeState state = {{0, -100, 0}, {1, 2, 3}};
-  EXPECT_EQ(drift_text(drift, state, RelativeFrame::rtn_rotating),
+  Scene scene;
+  EXPECT_EQ(drift_text(scene, drift, state, RelativeFrame::rtn_rotating),
             "Left to itself it drifts 73 m a revolution backwards along the track: its period is "
             "0.25 s longer than that of its chief.");
+  scene.system.earth.emplace().drag_m2_kg = 0.02;
+  scene.system.earth->atmosphere.emplace();
+  scene.deputy.emplace().drag_m2_kg = 0.03;
+  EXPECT_EQ(drift_text(scene, drift, state, RelativeFrame::rtn_rotating),
+            "Left to itself it drifts 73 m in the first revolution backwards along the track: its "
+            "period is 0.25 s longer than that of its chief; it differs from its chief in what air "
+            "or light does to it, so that the drift changes with every revolution.");
   nlohmann::ordered_json json;
   add_drift(json, drift, state);
   EXPECT_EQ(json["drift_m_per_revolution"], -73);

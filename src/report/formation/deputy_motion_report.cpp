@@ -153,8 +153,8 @@ std::string deputy_motion_verdict(const DeputyMotion& motion) {
       "away; at the end it is {} away. ",
       time(motion.points[last].time), time(nearest.time), place(nearest), time(farthest.time),
       place(farthest), length_text(separation_m(motion.points[last].state)));
-  const std::string drift =
-      drift_text(motion.drift, motion.points.front().state, motion.scene.deputy->frame);
+  const std::string drift = drift_text(motion.scene, motion.drift, motion.points.front().state,
+                                       motion.scene.deputy->frame);
   if (!drift.empty()) text += drift + " ";
   if (motion.manoeuvres > 0) {
     text += fmt::format("{} of the orbit messages {} flown; behind each, polynomials begin anew. ",

@@ -8,6 +8,7 @@
 
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_values.hpp"
+#include "../../studies/formation/formation_problem.hpp"
 #include "../../text/quantity_text.hpp"
 #include "hamjet/relative_motion/deputy_coordinates.hpp"
 #include "transfer_json.hpp"
@@ -37,21 +38,24 @@ std::string vector_text(const Eigen::Vector3d& vector, int digits, double scale)
                      shown(vector[1], scale), digits, shown(vector[2], scale), digits);
 }
 
-std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
-                       RelativeFrame frame, std::string_view where) {
+std::string drift_text(const Scene& scene, const std::optional<RelativeDrift>& drift,
+                       const RelativeState& state, RelativeFrame frame, std::string_view where) {
   if (!drift) return "";
   const double per_revolution = std::abs(drift->per_revolution_m);
   const double held = std::max(drift->floor_m, held_share * state.position_m.norm());
-  if (per_revolution <= held) {
+  // Air and light that act on one alone change the drift from revolution to revolution.
+  const bool is_unlike = !differing_parameters(scene).empty();
+  if (per_revolution <= held && !is_unlike) {
     return fmt::format("Left to itself{} it stays there: it drifts by {} a revolution.", where,
                        drift->is_none() ? "less than " + length_text(drift->floor_m)
                                         : length_text(per_revolution));
   }
   std::string text = fmt::format(
-      "Left to itself{} it drifts {} a revolution {} along the track: its period is {:.3g} s {} "
+      "Left to itself{} it drifts {} {} {} along the track: its period is {:.3g} s {} "
       "than that of its chief",
-      where, length_text(per_revolution), drift->per_revolution_m > 0 ? "forwards" : "backwards",
-      std::abs(drift->period_difference_s), drift->period_difference_s > 0 ? "longer" : "shorter");
+      where, length_text(per_revolution), is_unlike ? "in the first revolution" : "a revolution",
+      drift->per_revolution_m > 0 ? "forwards" : "backwards", std::abs(drift->period_difference_s),
+      drift->period_difference_s > 0 ? "longer" : "shorter");
   if (drift->elements_m && is_of_axes(*drift)) {
     text += fmt::format(" (a da is {:.4g} m, and without drift 0)",
                         shown((*drift->elements_m)[0], state.position_m.norm()));
@@ -61,6 +65,11 @@ std::string drift_text(const std::optional<RelativeDrift>& drift, const Relative
     text += fmt::format("; with velocity_m_s = {} ({}) in place of {} it would not",
                         vector_text(holding, 7, state.velocity_m_s.norm()), frame_text(frame),
                         vector_text(state.velocity_m_s, 7, holding.norm()));
+  }
+  if (is_unlike) {
+    text +=
+        "; it differs from its chief in what air or light does to it, so that the drift changes "
+        "with every revolution";
   }
   return text + ".";
 }

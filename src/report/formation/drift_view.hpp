@@ -7,16 +7,18 @@
 
 #include "hamjet/detail/studies/relative_drift.hpp"
 #include "hamjet/relative_motion/chief_frame.hpp"
+#include "hamjet/studies/scene.hpp"
 
 // How a deputy that is left to itself moves away along the track.
 
 namespace hamjet::io {
 
-/// A sentence about a deputy in this state, along the axes of the frame: what it drifts, and the
-/// velocity that would hold it; `where` may add " at its end". Empty where there is no drift to
-/// tell of.
-std::string drift_text(const std::optional<RelativeDrift>& drift, const RelativeState& state,
-                       RelativeFrame frame, std::string_view where = "");
+/// A sentence about the scene's deputy in this state, along the axes of the frame: what it drifts,
+/// and the velocity that would hold it; `where` may add " at its end". Empty where there is no
+/// drift to tell of.
+std::string drift_text(const Scene& scene, const std::optional<RelativeDrift>& drift,
+                       const RelativeState& state, RelativeFrame frame,
+                       std::string_view where = "");
 
 /// Three numbers for people, "[0, 0.286157, 0]", as a scene takes them; what is rounding beside the
 /// largest of them, and beside `scale`, is 0.

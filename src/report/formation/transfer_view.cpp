@@ -277,8 +277,8 @@ std::string transfer_verdict(const TransferResult& result) {
     text += fmt::format(", with the linear answer by {}", length_text(linear->miss_m));
   }
   text += ".";
-  const std::string drift =
-      drift_text(point.drift, point.arrived, result.scene.transfer->frame, " at its end");
+  const std::string drift = drift_text(result.scene, point.drift, point.arrived,
+                                       result.scene.transfer->frame, " at its end");
   return text + edge_text(result, *best) + left_out_text(result) + between_text(result) +
          budget_text(result) + (drift.empty() ? "" : " " + drift) + further;
 }

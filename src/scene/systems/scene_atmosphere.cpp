@@ -101,6 +101,19 @@ void warn_of_units(const TableReader& system, const GivenTable& given) {
   }
 }
 
+/// Heights so far apart that the smooth curve between them is no atmosphere.
+void warn_of_gaps(const TableReader& system, const GivenTable& given,
+                  const DensityProfile& profile) {
+  constexpr double largest = 0.3;
+  const double departure = profile.largest_departure();
+  if (departure <= largest) return;
+  system.warn(given.key,
+              fmt::format("heights too far apart, got densities that between them are up "
+                          "to {:.3g} % off the exponentials that join the table's, "
+                          "should be at most {:g} %: more heights in the wide gaps",
+                          100 * departure, 100 * largest));
+}
+
 void read_table_of_densities(const TableReader& system, AtmosphereSettings& air) {
   const GivenTable given = given_table(system);
   if (given.table.heights_km.size() > most_heights) {
@@ -114,6 +127,7 @@ void read_table_of_densities(const TableReader& system, AtmosphereSettings& air)
     system.fail(given.key, error.what());
   }
   warn_of_units(system, given);
+  warn_of_gaps(system, given, *air.profile);
   air.heights_km = given.table.heights_km;
   air.densities_kg_m3 = given.table.densities;
   if (given.key == "density_file") air.density_file = system.text("density_file");

@@ -12,66 +12,10 @@
 #include "../starts/scene_nominal_file.hpp"
 #include "hamjet/formats/conjunction_data_message.hpp"
 #include "scene_atmosphere.hpp"
+#include "spacecraft_coefficients.hpp"
 
 namespace hamjet::io {
 namespace {
-
-/// A coefficient of a spacecraft, and the keys that tell it: itself, or its factor beside mass and
-/// area.
-struct CoefficientKeys {
-  std::string_view itself;
-  std::string_view factor;
-  std::string_view own_area;  ///< in place of area_m2; empty if there is none
-  double usual_factor;
-  std::string_view symbol;
-  double least;  ///< least value of usual spacecraft
-  double most;
-  std::optional<double> SpacecraftParts::*part_area;
-  std::optional<double> SpacecraftParts::*part_factor;
-};
-
-/// Spacecraft have C_D A / m from 0.0003 m^2/kg (a sphere of lead, LARES) to some 7 (with a sail
-/// that brakes, NanoSail-D); balloons (Echo) had 20. An m / (C_D A) in kg/m^2 is 10 and more.
-constexpr CoefficientKeys drag_keys = {"drag_m2_kg",
-                                       "drag_coefficient",
-                                       "",
-                                       usual_drag_coefficient,
-                                       "C_D A / m",
-                                       2e-4,
-                                       9,
-                                       &SpacecraftParts::drag_area_m2,
-                                       &SpacecraftParts::drag_coefficient};
-/// From spheres of lead to solar sails; balloons have more.
-constexpr CoefficientKeys radiation_keys = {"radiation_m2_kg",
-                                            "reflection_coefficient",
-                                            "sunlit_area_m2",
-                                            usual_reflection_coefficient,
-                                            "C_R A / m",
-                                            1e-4,
-                                            1,
-                                            &SpacecraftParts::radiation_area_m2,
-                                            &SpacecraftParts::radiation_coefficient};
-
-void warn_of_unit(const TableReader& table, std::string_view key, const CoefficientKeys& keys,
-                  double value) {
-  if (value == 0 || (value >= keys.least && value <= keys.most)) return;
-  table.warn(key,
-             fmt::format("{} of hardly any spacecraft, got {:.4g} m^2/kg, should be from {} to "
-                         "{}; {}?",
-                         keys.symbol, value, keys.least, keys.most,
-                         value > keys.most ? "is the area in cm^2, or the coefficient kg/m^2"
-                                           : "is the mass in g, or the coefficient km^2/kg"));
-}
-
-/// The limits are far outside what is used, so that what they find is a slip, as 220 for 2.2.
-void warn_of_drag_coefficient(const TableReader& table, double factor) {
-  constexpr double least = 1, most = 6;
-  if (factor >= least && factor <= most) return;
-  table.warn(drag_keys.factor,
-             fmt::format("of no spacecraft, got C_D = {:.6g}, should be from {} to {}; most have "
-                         "about {}",
-                         factor, least, most, usual_drag_coefficient));
-}
 
 /// The forces that act on a spacecraft by its surface.
 struct SurfaceForces {
@@ -91,42 +35,6 @@ void refuse_keys_without(const TableReader& table, const CoefficientKeys& keys,
     table.fail(key, fmt::format("without {}, got {}, must be left out, or beside {}", what,
                                 table.found(key), remedy));
   }
-}
-
-[[noreturn]] void fail_given_twice(const TableReader& table, std::string_view part,
-                                   std::string_view other) {
-  table.fail(part, fmt::format("given twice, got {} beside {}, must be left out, or {}",
-                               table.found(part), other, other));
-}
-
-/// The coefficient that a table tells, of which mass and area may belong to another one. `parts`
-/// are what it is made of, if it is.
-double read_coefficient(const TableReader& table, const CoefficientKeys& keys,
-                        SpacecraftParts& parts) {
-  if (table.has(keys.itself)) {
-    for (const std::string_view part : {keys.factor, keys.own_area}) {
-      if (!part.empty() && table.has(part)) fail_given_twice(table, part, keys.itself);
-    }
-    const double value = table.number(keys.itself);
-    if (value < 0) {
-      table.fail(keys.itself, fmt::format("negative, got {}, must be at least 0", value));
-    }
-    warn_of_unit(table, keys.itself, keys, value);
-    return value;
-  }
-  const bool has_own_area = !keys.own_area.empty() && table.has(keys.own_area);
-  const std::string_view area_key = has_own_area ? keys.own_area : "area_m2";
-  const double mass = table.positive_number("mass_kg");
-  const double area = table.positive_number(area_key);
-  double factor = keys.usual_factor;
-  table.read_if_any(keys.factor, factor);
-  if (keys.factor == drag_keys.factor) warn_of_drag_coefficient(table, factor);
-  parts.mass_kg = mass;
-  parts.*keys.part_area = area;
-  parts.*keys.part_factor = factor;
-  const double value = factor * area / mass;
-  warn_of_unit(table, area_key, keys, value);
-  return value;
 }
 
 constexpr std::string_view message_key = "opm_file";
@@ -231,19 +139,10 @@ std::string doubts_of_message(const TableReader& table) {
   return text;
 }
 
-/// Whether a table says anything about a coefficient.
-bool tells(const TableReader& table, const CoefficientKeys& keys) {
-  for (const std::string_view key : {keys.itself, keys.factor, keys.own_area,
-                                     std::string_view("mass_kg"), std::string_view("area_m2")}) {
-    if (!key.empty() && table.has(key)) return true;
-  }
-  return false;
-}
-
-/// Reads the coefficients of the forces that there are. What a deputy's table leaves out is its
-/// chief's.
+/// Reads the coefficients of the forces that there are. What a deputy's table leaves out is that of
+/// `chief`, which is null for the chief itself.
 SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForces& forces,
-                                     bool is_deputy) {
+                                     const SpacecraftParts* chief) {
   table.check_keys();
   if (!forces.has_drag) refuse_keys_without(table, drag_keys, "air", "system.atmosphere");
   if (!forces.has_radiation) {
@@ -263,11 +162,12 @@ SpacecraftSettings read_coefficients(const TableReader& table, const SurfaceForc
     fail_given_twice(table, "area_m2", radiation_needs_parts ? radiation_keys.own_area : other);
   }
   SpacecraftSettings settings;
-  if (forces.has_drag && (!is_deputy || tells(table, drag_keys))) {
-    settings.drag_m2_kg = read_coefficient(table, drag_keys, settings.parts);
+  const SpacecraftParts known = chief == nullptr ? SpacecraftParts() : *chief;
+  if (forces.has_drag && (chief == nullptr || tells(table, drag_keys))) {
+    settings.drag_m2_kg = read_coefficient(table, drag_keys, settings.parts, known);
   }
-  if (forces.has_radiation && (!is_deputy || tells(table, radiation_keys))) {
-    settings.radiation_m2_kg = read_coefficient(table, radiation_keys, settings.parts);
+  if (forces.has_radiation && (chief == nullptr || tells(table, radiation_keys))) {
+    settings.radiation_m2_kg = read_coefficient(table, radiation_keys, settings.parts, known);
   }
   return settings;
 }
@@ -385,7 +285,7 @@ void read_surface_forces(const TableReader& root, SystemSettings& settings) {
                  "without air or light, got a spacecraft, must be left out, or system.atmosphere = "
                  "\"harris-priester\" or system.radiation = true");
     }
-    chief = read_coefficients(table, forces, false);
+    chief = read_coefficients(table, forces, nullptr);
   }
   earth.drag_m2_kg = chief.drag_m2_kg.value_or(0);
   earth.radiation_m2_kg = chief.radiation_m2_kg.value_or(0);
@@ -419,7 +319,7 @@ SpacecraftSettings read_spacecraft(const TableReader& owner, const SystemSetting
                "without air or light, got a spacecraft, must be left out, or system.model = "
                "\"earth\" with an atmosphere or radiation");
   }
-  return read_coefficients(table, forces, true);
+  return read_coefficients(table, forces, &system.earth->parts);
 }
 
 }  // namespace hamjet::io

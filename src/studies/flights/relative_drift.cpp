@@ -128,7 +128,10 @@ std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vecto
     drift.per_revolution_m = -length_m * difference / *of_chief;
     drift.floor_m = rounding * length_m;
     drift.period_difference_s = difference * units.time_s;
-    if (finds_holding) {
+    // No velocity holds a deputy that air or light keeps moving away.
+    const bool is_alike =
+        std::all_of(deviation.begin() + 6, deviation.end(), [](double d) { return d == 0; });
+    if (finds_holding && is_alike) {
       if (const auto change = holding_change(meridian, deputy, *of_chief)) {
         drift.holding_change_m_s = ChiefFrame(chief, units, frame).velocity_change_m_s(*change);
       }

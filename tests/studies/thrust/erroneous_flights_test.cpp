@@ -247,7 +247,7 @@ void expect_linear_theory(int count) {
 }
 
 TEST(ErroneousFlights, ScatterAsTheLinearTheoryOfACircle) { expect_linear_theory(100); }
-TEST(ErroneousFlightsAtLength, ScatterAsTheLinearTheoryOfACircle) { expect_linear_theory(3000); }
+TEST(ErroneousFlightsAtLength, ScatterAsTheLinearTheoryOfACircle) { expect_linear_theory(1000); }
 
 }  // namespace
 }  // namespace hamjet::thrusted
