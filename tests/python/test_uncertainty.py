@@ -183,6 +183,17 @@ def test_collision_probability_of_arrays_is_the_published_one():
     np.testing.assert_allclose(kepler.probability, one.probability, rtol=0.02)
 
 
+@pytest.mark.parametrize("window_s", [(-60.0, 0.0), (-60.0, -0.001), (0.0, 60.0)])
+def test_windows_may_end_before_the_epoch(window_s):
+    """Two that cross at right angles, nearest at the epoch: whole passages have the integral of a
+    round Gaussian over the disc, 1 - exp(-R^2 / (2 s^2))."""
+    states = [[7e6, 0, 0, 0, 7546, 0], [7e6, 0, 0, 0, 0, 7546]]
+    covariance = np.diag([25.0, 25, 25, 1e-6, 1e-6, 1e-6])
+    found = hamjet.collision_probability(states, [covariance, covariance], 10, window_s, samples=20000)
+    assert found.probability < found.whole_passage.probability
+    np.testing.assert_allclose(found.whole_passage.probability, 1 - np.exp(-10 ** 2 / (2 * 50)), rtol=0.03)
+
+
 @pytest.mark.parametrize("change, words", [
     ({"states": np.zeros((2, 5))}, r"states: wrong shape, got \(2, 5\), must end with \(2, 6\)"),
     ({"covariances": np.zeros((3, 2, 6, 6))}, "covariances: wrong shape"),
