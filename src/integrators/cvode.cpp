@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "cvode_block_solver.hpp"
-#include "cvode_handles.hpp"
+#include "cvode_vectors.hpp"
 #include "hamjet/error.hpp"
 #include "integration_clock.hpp"
 #include "series_vector_field.hpp"
@@ -45,15 +45,14 @@ class CvodeIntegration {
         guard_(problem, settings.tolerance, name_),
         jet_(starting_jet(problem)) {
     const std::vector<double> initial = field_.initial_state();
-    state_.reset(
-        sundials::require(N_VNew_Serial(static_cast<sunindextype>(initial.size()), context_)));
+    state_ = sundials::make_vector(static_cast<sunindextype>(initial.size()), context_);
     std::copy(initial.begin(), initial.end(), numbers());
     const bool is_adams = settings.method == CvodeMethod::adams;
     memory_.reset(sundials::require(CVodeCreate(is_adams ? CV_ADAMS : CV_BDF, context_)));
     require(CVodeSetErrHandlerFn(memory_.get(), keep_message, this));
     require(CVodeInit(memory_.get(), right_hand_side, 0, state_.get()));
     require(CVodeSetUserData(memory_.get(), this));
-    require(CVodeSStolerances(memory_.get(), settings.tolerance, settings.tolerance));
+    require(CVodeWFtolerances(memory_.get(), error_weights));
     require(CVodeSetMaxHnilWarns(memory_.get(), -1));
     require(CVodeSetStopTime(memory_.get(), ends_.after(0)));
     if (is_adams) {
@@ -216,6 +215,11 @@ class CvodeIntegration {
 
   /// Keeps the message that CVODE would write to standard error; warnings (positive codes) are
   /// ignored.
+  static int error_weights(N_Vector y, N_Vector weights, void* self) {
+    sundials::set_weights(y, weights, static_cast<CvodeIntegration*>(self)->settings_.tolerance);
+    return 0;
+  }
+
   static void keep_message(int code, const char*, const char*, char* message, void* self) {
     if (code >= 0) return;
     call(self, [&](CvodeIntegration& integration) {
