@@ -18,13 +18,31 @@
 
 namespace hamjet::io::report_tables {
 
-inline Walk validity_walk() {
+inline ValidityResult told_validity() {
   ValidityResult result = sample_validity();
   result.coordinates.start = JetCoordinates::nodal;
   result.points[1].time = 2.5;
   result.scene.validity->tolerance_m = 3;
   result.scene.validity->semi_axes = {1, 0.5, 0.25};
   result.domains = {4321, 987, 41, 81, "vT", 5, 0.4375};
+  result.domains->parts = {{{{1, 2, 3}, {4, 5, 6}}, 7, 0.25},
+                           {{{71, 72, 73}, {74, 75, 76}}, 19, 0.4375}};
+  return result;
+}
+
+inline Walk split_domains_walk() {
+  const ValidityResult result = told_validity();
+  return {split_domains_table(result),
+          validity_report(result, sample_transfer_origin()),
+          {1},
+          {{"centre_m", {"m", {71, 72, 73}}},
+           {"centre_m_s", {"m/s", {74, 75, 76}}},
+           {"deputies", {"", 19}},
+           {"miss_m", {"m", 0.4375}}}};
+}
+
+inline Walk validity_walk() {
+  const ValidityResult result = told_validity();
   return {validity_table(result),
           validity_report(result, sample_transfer_origin()),
           {3},
@@ -138,6 +156,7 @@ inline std::vector<Walk> formation_walks() {
   for (Walk& walk : assignment_walks()) all.push_back(std::move(walk));
   all.push_back(motion_walk());
   all.push_back(validity_walk());
+  all.push_back(split_domains_walk());
   return all;
 }
 

@@ -49,6 +49,13 @@ struct ValidityPoint {
   std::vector<ValidityEntry> entries;  ///< for the orders 1..N
 };
 
+/// One of the domains into which deputies are split; its polynomials are about its centre.
+struct ValidityDomain {
+  RelativeState centre;  ///< from the chief, along the frame of the results
+  std::size_t deputies = 0;
+  double miss_m = 0;  ///< the largest flown miss of these
+};
+
 /// The domains into which a set of deputies is split until the polynomials about each one's centre
 /// are right to the tolerance at the last time.
 struct ValidityDomains {
@@ -59,6 +66,7 @@ struct ValidityDomains {
   std::string split_across;   ///< coordinate across which most were split; empty for one domain
   std::size_t not_right = 0;  ///< deputies beyond the tolerance, if the limit on domains was met
   double miss_m = 0;          ///< the largest flown miss
+  std::vector<ValidityDomain> parts = {};
 };
 
 /// All results of the study of table `[validity]`.

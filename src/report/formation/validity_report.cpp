@@ -159,8 +159,38 @@ TableView validity_table(const ValidityResult& result) {
       rows, {result.points.size(), static_cast<std::size_t>(result.scene.order)});
 }
 
+TableView split_domains_table(const ValidityResult& result) {
+  ResultTable<ValidityDomain> table("split_domains", "/validity", {"split_domains"},
+                                    "The domains that deputies within `separation_m` were split "
+                                    "into, each with polynomials about "
+                                    "its centre.");
+  const auto names = component_names(result.scene.validity->frame);
+  const auto add_centre = [&](std::size_t first, const std::string& unit, const std::string& ending,
+                              const std::string& of, Eigen::Vector3d RelativeState::*part) {
+    std::vector<std::string> parts;
+    for (std::size_t i = first; i < first + 3; ++i) {
+      parts.push_back("centre_" + std::string(names[i]) + ending);
+    }
+    table.add_array("centre" + ending, parts, unit,
+                    "the " + of +
+                        " of its centre at the start, from the chief, along the frame of "
+                        "the results",
+                    [part](const ValidityDomain& domain) {
+                      const Eigen::Vector3d& centre = domain.centre.*part;
+                      return std::vector<double>(centre.begin(), centre.end());
+                    });
+  };
+  add_centre(0, "m", "_m", "position", &RelativeState::position_m);
+  add_centre(3, "m/s", "_m_s", "velocity", &RelativeState::velocity_m_s);
+  table.add("deputies", "", "the number of deputies in it, all flown", &ValidityDomain::deputies);
+  table.add("miss_m", "m", "the largest miss of these", &ValidityDomain::miss_m);
+  const std::vector<ValidityDomain>& domains = result.domains.value().parts;
+  return std::move(table).view(domains, {domains.size()});
+}
+
 Json validity_json(const ValidityResult& result) {
   Json json = table_json(validity_table(result));
+  if (result.domains) json.update(table_json(split_domains_table(result)));
   add_chosen_by(json, result.coordinates);
   json["seconds"] = {{"propagation", result.propagation_seconds}, {"proof", result.proof_seconds}};
   return json;
@@ -178,6 +208,9 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   ChartDrawer drawer(origin.gnuplot);
   report.files = {{"validity.csv", table_csv(validity_table(result))},
                   {"report.html", validity_page(result, origin, drawer)}};
+  if (result.domains) {
+    report.files.push_back({"domains.csv", table_csv(split_domains_table(result))});
+  }
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", json_text(validity_report_json(result)) + "\n"});
   report.table = terminal_table(result);

@@ -65,6 +65,12 @@ class SplitValidity {
       result.split_across = component_names(
           scene_.validity->frame)[static_cast<std::size_t>(most - split.splits.begin())];
     }
+    const ChiefFrame frame(problem_.nominal, metric_units(scene_), scene_.validity->frame);
+    for (const PointDomain& domain : split.domains) {
+      const SixNumbers<double> centre = deviation_along(axes_, domain.centre);
+      result.parts.push_back(
+          {frame.relative({centre.begin(), centre.end()}), domain.points.size(), domain.error});
+    }
     for (const double miss : misses_) {
       result.miss_m = std::max(result.miss_m, miss);
       if (!(miss <= scene_.validity->tolerance_m)) ++result.not_right;
