@@ -5,6 +5,7 @@
 #include "../../store/json_values.hpp"
 #include "../../text/quantity_text.hpp"
 #include "../../text/terminal_text.hpp"
+#include "../centre_columns.hpp"
 #include "../drawing/chart_drawer.hpp"
 #include "../own_units_text.hpp"
 #include "../study_checks.hpp"
@@ -164,24 +165,11 @@ TableView split_domains_table(const ValidityResult& result) {
                                     "The domains that deputies within `separation_m` were split "
                                     "into, each with polynomials about "
                                     "its centre.");
-  const auto names = component_names(result.scene.validity->frame);
-  const auto add_centre = [&](std::size_t first, const std::string& unit, const std::string& ending,
-                              const std::string& of, Eigen::Vector3d RelativeState::*part) {
-    std::vector<std::string> parts;
-    for (std::size_t i = first; i < first + 3; ++i) {
-      parts.push_back("centre_" + std::string(names[i]) + ending);
-    }
-    table.add_array("centre" + ending, parts, unit,
-                    "the " + of +
-                        " of its centre at the start, from the chief, along the frame of "
-                        "the results",
-                    [part](const ValidityDomain& domain) {
-                      const Eigen::Vector3d& centre = domain.centre.*part;
-                      return std::vector<double>(centre.begin(), centre.end());
-                    });
-  };
-  add_centre(0, "m", "_m", "position", &RelativeState::position_m);
-  add_centre(3, "m/s", "_m_s", "velocity", &RelativeState::velocity_m_s);
+  add_centre(table, result.scene.validity->frame, "the chief", [](const ValidityDomain& domain) {
+    Eigen::Matrix<double, 6, 1> centre;
+    centre << domain.centre.position_m, domain.centre.velocity_m_s;
+    return centre;
+  });
   table.add("deputies", "", "the number of deputies in it, all flown", &ValidityDomain::deputies);
   table.add("miss_m", "m", "the largest miss of these", &ValidityDomain::miss_m);
   const std::vector<ValidityDomain>& domains = result.domains.value().parts;
@@ -209,7 +197,7 @@ StudyReport validity_report(const ValidityResult& result, const ReportOrigin& or
   report.files = {{"validity.csv", table_csv(validity_table(result))},
                   {"report.html", validity_page(result, origin, drawer)}};
   if (result.domains) {
-    report.files.push_back({"domains.csv", table_csv(split_domains_table(result))});
+    report.files.push_back({"split_domains.csv", table_csv(split_domains_table(result))});
   }
   report.drawing_problem = drawer.problem();
   report.files.push_back({"summary.json", json_text(validity_report_json(result)) + "\n"});
