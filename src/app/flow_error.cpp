@@ -42,7 +42,7 @@ std::unique_ptr<DeputyFlow> independent_linear_flow(const Scene& scene,
     JetPropagation jets(linear, precise);
     const FlowJet<double> jet = jets.advance_to(scene.duration);
     return driven_flow_box_deputy_flow(problem.system, problem.start_time + scene.duration,
-                                       driven_flow_box(scene, linear, jets, jet));
+                                       driven_flow_box(scene, linear, scene.duration, jet));
   }
   if (coordinates == JetCoordinates::flow_box) {
     const ZonalGravity field = orbit_field(scene);

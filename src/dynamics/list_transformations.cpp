@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "hamjet/detail/dynamics/expression.hpp"
 #include "hamjet/error.hpp"
+#include "list_about_time.hpp"
 
 namespace hamjet {
 namespace {
@@ -86,32 +88,11 @@ void for_each_field_derivative(const Operation& o, std::span<const Expression> v
   }
 }
 
-/// The list with other inputs, from which `inputs_of_list` makes its own, and with some of its
-/// outputs.
-OperationList recorded_anew(
-    const OperationList& list, std::size_t inputs, bool has_time,
-    const std::vector<std::size_t>& outputs,
-    const std::function<std::vector<Expression>(std::span<const Expression>)>& inputs_of_list) {
-  return record(
-      inputs,
-      [&](std::span<const Expression> variables) {
-        const std::vector<Expression> values = replay(list, inputs_of_list(variables));
-        std::vector<Expression> result;
-        for (const std::size_t o : outputs) result.push_back(values[list.outputs()[o]]);
-        return result;
-      },
-      has_time);
-}
+/// The value of a component of a function of the time.
+using TimeValue = std::function<Expression(const Operation&, const Expression& time)>;
 
-std::vector<std::size_t> all_outputs(const OperationList& list) {
-  std::vector<std::size_t> result(list.outputs().size());
-  std::iota(result.begin(), result.end(), std::size_t{0});
-  return result;
-}
-
-}  // namespace
-
-std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs) {
+std::vector<Expression> replay_with(const OperationList& list, std::span<const Expression> inputs,
+                                    const TimeValue& time_value) {
   if (inputs.size() != list.inputs()) {
     const bool lacks_time = list.has_time() && inputs.size() == list.variables();
     throw Error(ErrorKind::usage, lacks_time
@@ -164,7 +145,7 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
         values.push_back(angle(values[o.u], values[o.v]));
         break;
       case OperationCode::time_function:
-        values.push_back(time_values(o.time_function, values[o.u])[o.component]);
+        values.push_back(time_value(o, values[o.u]));
         break;
       case OperationCode::field: {
         Expression sum(0);
@@ -180,6 +161,37 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
     }
   }
   return values;
+}
+
+/// The list with other inputs, from which `inputs_of_list` makes its own, and with some of its
+/// outputs.
+OperationList recorded_anew(
+    const OperationList& list, std::size_t inputs, bool has_time,
+    const std::vector<std::size_t>& outputs,
+    const std::function<std::vector<Expression>(std::span<const Expression>)>& inputs_of_list) {
+  return record(
+      inputs,
+      [&](std::span<const Expression> variables) {
+        const std::vector<Expression> values = replay(list, inputs_of_list(variables));
+        std::vector<Expression> result;
+        for (const std::size_t o : outputs) result.push_back(values[list.outputs()[o]]);
+        return result;
+      },
+      has_time);
+}
+
+std::vector<std::size_t> all_outputs(const OperationList& list) {
+  std::vector<std::size_t> result(list.outputs().size());
+  std::iota(result.begin(), result.end(), std::size_t{0});
+  return result;
+}
+
+}  // namespace
+
+std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs) {
+  return replay_with(list, inputs, [](const Operation& o, const Expression& time) {
+    return time_values(o.time_function, time)[o.component];
+  });
 }
 
 std::vector<Expression> recorded_outputs(const OperationList& list,
@@ -277,6 +289,33 @@ OperationList at_time(const OperationList& list, const Extended& time) {
                          all.emplace_back(time);
                          return all;
                        });
+}
+
+OperationList about_time(const OperationList& list, const Extended& time, int degree) {
+  const auto terms = static_cast<std::size_t>(degree) + 1;
+  std::map<const TimeFunction*, std::vector<Extended>> coefficients;
+  return record(list.variables() + 1, [&](std::span<const Expression> variables) {
+    const Expression& later = variables.back();
+    const auto polynomial = [&](const Operation& o, const Expression& at) {
+      if (at.is_constant()) return time_values(o.time_function, at)[o.component];
+      std::vector<Extended>& known = coefficients[o.time_function.get()];
+      if (known.empty()) {
+        known.resize(o.time_function->components() * terms);
+        o.time_function->expand(time, degree, known.data());
+      }
+      Expression sum(0);
+      for (std::size_t k = terms; k-- > 0;) {
+        sum = sum * later + Expression(known[o.component * terms + k]);
+      }
+      return sum;
+    };
+    std::vector<Expression> inputs(variables.begin(), variables.end() - 1);
+    if (list.has_time()) inputs.push_back(time + later);
+    const std::vector<Expression> values = replay_with(list, inputs, polynomial);
+    std::vector<Expression> outputs;
+    for (const std::size_t place : list.outputs()) outputs.push_back(values[place]);
+    return outputs;
+  });
 }
 
 OperationList with_time(const OperationList& list) {

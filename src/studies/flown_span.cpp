@@ -3,23 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../astronomy/sampled_days.hpp"
-#include "formation/jets_about_time.hpp"
-
 namespace hamjet {
-namespace {
-
-/// How far polynomials of flow boxes, which are known at times about an end, need forces that
-/// depend on the time beyond what such forces are known for anyway.
-double beyond_ends(const Scene& scene) {
-  constexpr double known_s = 0.99 * 86400 * days_beyond_span;
-  const bool has_boxes = scene.coordinates == JetCoordinates::flow_box ||
-                         scene.coordinates == JetCoordinates::automatic || scene.validity;
-  if (!scene.system.earth || !has_boxes) return 0;
-  return std::max(0.0, longest_time_about(scene.nominal) - known_s / scene.units.time_s);
-}
-
-}  // namespace
 
 FlownSpan flown_span(const Scene& scene) {
   FlownSpan span;
@@ -47,8 +31,7 @@ FlownSpan flown_span(const Scene& scene) {
     reach_window(uncertainty->collision);
     reach_window(uncertainty->safety);
   }
-  const double beyond = beyond_ends(scene);
-  return {span.first - beyond, span.last + beyond};
+  return span;
 }
 
 double last_arrival(const TransferSettings& settings) {

@@ -1,94 +1,66 @@
 #include "jets_about_time.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
+#include <cstdint>
+#include <span>
+
+#include "../../dynamics/list_about_time.hpp"
+#include "hamjet/algebra/calculus.hpp"
+#include "hamjet/detail/dynamics/slice_evaluator.hpp"
 
 namespace hamjet {
 namespace {
 
-/// Nodes to each side of the one in the middle.
-constexpr Eigen::Index side = 10;
-constexpr Eigen::Index nodes = 2 * side + 1;
-/// Half of the span of the nodes, in units of the distance over the speed, or of the time of a fall
-/// where that is shorter, as it is near the apogee of an eccentric orbit.
-constexpr double half_span = 0.35;
-
-double half_span_at(double distance, double speed) {
-  return half_span * std::min(distance / speed, std::sqrt(distance * distance * distance));
-}
-
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-
-/// Node j, from -1 to 1.
-long double node(Eigen::Index j) {
-  if (j == side) return 0;
-  return -std::cos(std::numbers::pi_v<long double> * (static_cast<long double>(j) + 0.5L) / nodes);
-}
-
-/// The numbers by which values at the nodes become coefficients of powers: row k is of power k, and
-/// column j has Lagrange's polynomial that is 1 at node j and 0 at the others. These are large and
-/// cancel, for which they are made with more digits than they are used.
-LongMatrix weights_of_powers() {
-  LongMatrix weights = LongMatrix::Zero(nodes, nodes);
-  for (Eigen::Index j = 0; j < nodes; ++j) {
-    weights(0, j) = 1;
-    Eigen::Index degree = 0;
-    for (Eigen::Index i = 0; i < nodes; ++i) {
-      if (i == j) continue;
-      // Times (x - node i) / (node j - node i).
-      const long double distance = node(j) - node(i);
-      for (Eigen::Index k = ++degree; k >= 0; --k) {
-        const long double below = k > 0 ? weights(k - 1, j) : 0;
-        weights(k, j) = (below - node(i) * weights(k, j)) / distance;
-      }
-    }
-  }
-  return weights;
+/// The place, in a space with one more variable, of a monomial times a power of that variable.
+std::size_t place_of(const SeriesSpace& space, std::span<const std::uint8_t> monomial, int power) {
+  std::vector<std::uint8_t> exponents(monomial.begin(), monomial.end());
+  exponents.push_back(static_cast<std::uint8_t>(power));
+  return space.index(exponents);
 }
 
 }  // namespace
 
-std::vector<FlowJet<double>> jets_about_time(const JetPropagation& at_time,
-                                             const FlowJet<double>& jet, int order) {
-  static const LongMatrix weights = weights_of_powers();
-  const double distance = std::hypot(jet[0][0], jet[1][0], jet[2][0]);
-  const double span = half_span_at(distance, std::hypot(jet[3][0], jet[4][0], jet[5][0]));
-  std::vector<FlowJet<double>> at_nodes(static_cast<std::size_t>(nodes));
-  at_nodes[side] = jet;
-  for (const int sign : {-1, 1}) {
-    JetPropagation onward = at_time;
-    for (Eigen::Index j = side + sign; j >= 0 && j < nodes; j += sign) {
-      at_nodes[static_cast<std::size_t>(j)] =
-          onward.advance_to(at_time.time() + span * static_cast<double>(node(j)));
+// Picard's iteration, z(s) = z(0) + integral of f(z(s), t + s) from 0 to s, makes one more power of
+// s right each time. Interpolation between jets at times about t is no substitute: its nodes must
+// resolve the shortest waves of the field, and the closer they are, the more the errors of the
+// integrations count in the higher powers.
+std::vector<FlowJet<double>> jets_about_time(const DynamicalSystem& system, const ClockTime& time,
+                                             const FlowJet<double>& jet) {
+  const SeriesSpace& own = jet[0].space();
+  const int order = own.order();
+  const std::size_t later = own.variables();  // the variable s
+  const SpacePointer space = SeriesSpace::create(later + 1, order);
+  FlowJet<double> start(jet.size(), Series<double>(space));
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const std::size_t place = place_of(*space, own.exponents(k), 0);
+    for (std::size_t c = 0; c < jet.size(); ++c) start[c][place] = jet[c][k];
+  }
+  const OperationList field = about_time(system.vector_field, time.in<Extended>(), order);
+  SliceEvaluator<double, double> evaluator(field, space, order);
+  evaluator.input(jet.size())[space->linear_index(later)] = 1;
+  FlowJet<double> flow = start;
+  for (int k = 1; k <= order; ++k) {
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      std::copy_n(flow[c].coefficients().data(), space->size(), evaluator.input(c));
+    }
+    evaluator.evaluate_all();
+    Series<double> rate(space);
+    for (std::size_t c = 0; c < jet.size(); ++c) {
+      std::copy_n(evaluator.output(c), space->size(), rate.coefficients().data());
+      flow[c] = start[c] + integral(rate, later);
     }
   }
-  std::vector<FlowJet<double>> result = {jet};
-  for (int k = 1; k <= order; ++k) {
-    FlowJet<double>& power = result.emplace_back();
-    const LongMatrix of_nodes = weights.row(k) / std::pow(static_cast<long double>(span), k);
-    for (std::size_t c = 0; c < jet.size(); ++c) {
-      Series<double> sum(jet[c].space_pointer());
-      for (Eigen::Index j = 0; j < nodes; ++j) {
-        sum += at_nodes[static_cast<std::size_t>(j)][c] * static_cast<double>(of_nodes(0, j));
-      }
-      power.push_back(std::move(sum));
+  std::vector<FlowJet<double>> result(static_cast<std::size_t>(order) + 1);
+  for (int power = 0; power <= order; ++power) {
+    FlowJet<double>& target = result[static_cast<std::size_t>(power)];
+    target.assign(jet.size(), Series<double>(jet[0].space_pointer()));
+    for (std::size_t k = 0; k < own.first(order - power + 1); ++k) {
+      const std::size_t place = place_of(*space, own.exponents(k), power);
+      for (std::size_t c = 0; c < jet.size(); ++c) target[c][k] = flow[c][place];
     }
   }
   return result;
-}
-
-double longest_time_about(std::span<const double> state) {
-  constexpr double changes = 1.1;  // of the apogee, by what perturbs the orbit
-  const Eigen::Map<const Eigen::Vector3d> position(state.data());
-  const Eigen::Map<const Eigen::Vector3d> velocity(state.data() + 3);
-  const double energy = velocity.squaredNorm() / 2 - 1 / position.norm();
-  if (!(energy < 0)) return 0;
-  const double shape = 1 + 2 * energy * position.cross(velocity).squaredNorm();
-  const double apogee = (1 + std::sqrt(std::max(shape, 0.0))) / (-2 * energy);
-  return half_span * std::pow(changes * apogee, 1.5);
 }
 
 }  // namespace hamjet

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <random>
 #include <string>
 
 #include "hamjet/scene/scene_reader.hpp"
 #include "hamjet/studies/propagation.hpp"
+#include "studies/made_up_field.hpp"
 #include "support/temporary_directory.hpp"
 
 // Jets of order 6 in a made-up field of degree and order 70, with Sun and Moon: at every degree
@@ -16,25 +16,6 @@
 
 namespace hamjet {
 namespace {
-
-/// The Earth's J2, and all other coefficients random, of the sizes of Kaula's rule.
-void write_field(const std::filesystem::path& file) {
-  std::mt19937_64 generator(70);
-  const auto draw = [&](int n) {
-    const double fraction = static_cast<double>(generator() >> 11) * 0x1p-53;
-    return (2 * fraction - 1) * 1e-5 / (n * n);
-  };
-  std::ofstream out(file);
-  out << "product_type gravity_field\nmodelname MADE_UP\nearth_gravity_constant 0.3986004415E+15\n"
-         "radius 0.63781363E+07\nmax_degree 70\ntide_system tide_free\nend_of_head\ngfc 0 0 1.0 "
-         "0.0\ngfc 1 0 0.0 0.0\ngfc 1 1 0.0 0.0\n";
-  for (int n = 2; n <= 70; ++n) {
-    for (int m = 0; m <= n; ++m) {
-      const double C = n == 2 && m == 0 ? -4.84165e-4 : draw(n);
-      out << fmt::format("gfc {} {} {:.17g} {:.17g}\n", n, m, C, m == 0 ? 0.0 : draw(n));
-    }
-  }
-}
 
 RunResult jet_with(const std::filesystem::path& folder, const std::string& forces) {
   std::ofstream(folder / "scene.toml") << fmt::format(R"(
@@ -64,7 +45,7 @@ kinds = ["F1"]
 
 TEST(HighDegreeJets, AreSymplecticAndExactToRoundingAtEveryDegree) {
   const test::TemporaryDirectory folder;
-  write_field(folder.path() / "made_up.gfc");
+  test::write_made_up_field(folder.path() / "made_up.gfc");
   const RunResult run = jet_with(folder.path(), "gravity_degree = 70");
   const RunResult oblate =
       jet_with(folder.path(), "gravity_degree = 2\ngravity_order = 0\nsun = false\nmoon = false");

@@ -101,8 +101,7 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
 }
 
 std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
-                                                     const ComputedProblem& problem,
-                                                     const JetPropagation& at_time,
+                                                     const ComputedProblem& problem, double time,
                                                      const FlowJet<double>& jet) {
   if (jet.size() < 6 || jet[0].space().variables() != jet.size()) {
     throw Error(ErrorKind::scene,
@@ -111,8 +110,9 @@ std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
   }
   const SixNumbers<double> start = six_numbers(problem.nominal);
   const double oblateness = scene.system.J[2] * scene.canonical_radius * scene.canonical_radius;
-  return std::make_shared<const DrivenFlowBox>(start, jets_about_time(at_time, jet, jet[0].order()),
-                                               at_time.time(), canonical_mu, oblateness);
+  return std::make_shared<const DrivenFlowBox>(
+      start, jets_about_time(*problem.system, problem.start_time + time, jet), time, canonical_mu,
+      oblateness);
 }
 
 DeputyFlowPropagation::DeputyFlowPropagation(const Scene& scene, const ComputedProblem& problem,
@@ -157,7 +157,7 @@ std::unique_ptr<DeputyFlow> DeputyFlowPropagation::advance_to(double time) {
   if (coordinates_.start == JetCoordinates::flow_box) {
     const FlowJet<double> at_end = jets_->advance_to(time);
     return in_coordinates(coordinates_.end, when, ErrorKind::numerical, [&] {
-      last_driven_ = driven_flow_box(scene_, problem_, *jets_, at_end);
+      last_driven_ = driven_flow_box(scene_, problem_, time, at_end);
       DeputyParameters parameters = {{problem_.nominal.begin() + 6, problem_.nominal.end()},
                                      parameters_};
       for (std::size_t i = 0; i < parameters_.size(); ++i) parameters.values[i] += parameters_[i];

@@ -35,12 +35,10 @@ std::unique_ptr<DeputyFlow> deputy_flow_of_jet(const FlowMap<double>& jet,
                                                const CoordinatesAtEnds& coordinates,
                                                std::span<const double> parameters = {});
 
-/// The flow box of forces that depend on the time, about a problem's start: from the jet at a time
-/// and the propagation that stands there. The scene tells the field's oblateness. Throws as
-/// DrivenFlowBox and the integrator.
+/// The flow box of forces that depend on the time, about a problem's start: from the jet a time
+/// after it. The scene tells the field's oblateness. Throws as DrivenFlowBox.
 std::shared_ptr<const DrivenFlowBox> driven_flow_box(const Scene& scene,
-                                                     const ComputedProblem& problem,
-                                                     const JetPropagation& at_time,
+                                                     const ComputedProblem& problem, double time,
                                                      const FlowJet<double>& jet);
 
 /// Predictions of a scene's polynomials for deputies, in some coordinates, from time to time.
