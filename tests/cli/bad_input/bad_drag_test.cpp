@@ -58,8 +58,8 @@ TEST_F(BadDrag, EachIsOneLine) {
 
 TEST_F(BadDrag, TablesOfDensities) {
   const string arrays =
-      "heights_km = [100, 200, 300, 400]\ndensities_kg_m3 = [5e-7, 3e-10, 2e-11, "
-      "4e-12]\n";
+      "heights_km = [300, 400, 500, 600]\ndensities_kg_m3 = [2e-11, 3e-12, 5e-13, "
+      "1e-13]\n";
   const string table = "atmosphere = \"table\"\n";
   const string right = changed(drag_scene, "atmosphere = \"harris-priester\"\n", table + arrays);
   write("good.toml", right);
@@ -67,17 +67,17 @@ TEST_F(BadDrag, TablesOfDensities) {
   expect_each_refused(
       right,
       {{arrays, "", {"5", "atmosphere", "no densities", "density_file"}},
-       {"heights_km = [100, 200, 300, 400]\n", "", {"6", "densities_kg_m3", "half of a table"}},
+       {"heights_km = [300, 400, 500, 600]\n", "", {"6", "densities_kg_m3", "half of a table"}},
        {table, "atmosphere = \"exponential\"\n", {"6", "heights_km", "without a table"}},
        {table, "", {"5", "heights_km", "without air"}},
        {arrays, arrays + "density_file = \"air.csv\"\n", {"6", "heights_km", "given twice"}},
-       {"300, 400]", "300]", {"6", "heights_km", "as many densities as heights, got 4 and 3"}},
+       {"500, 600]", "500]", {"6", "heights_km", "as many densities as heights, got 4 and 3"}},
        {arrays,
         "heights_km = [100, 200]\ndensities_kg_m3 = [5e-7, 3e-10]\n",
         {"6", "at least 4 heights"}},
-       {"200, 300", "300, 200", {"6", "must increase", "300 km is followed by 200 km"}},
-       {"3e-10", "-3e-10", {"7", "densities_kg_m3"}},
-       {"3e-10", "nan", {"7", "densities_kg_m3"}}});
+       {"400, 500", "500, 400", {"6", "must increase", "500 km is followed by 400 km"}},
+       {"3e-12", "-3e-12", {"7", "densities_kg_m3"}},
+       {"3e-12", "nan", {"7", "densities_kg_m3"}}});
   const string of_file = changed(right, arrays, "density_file = \"air.csv\"\n");
   write("file.toml", of_file);
   expect_error({"check", "file.toml"}, 5, {"file.toml:6", "density_file", "cannot be read"});
