@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "../../src/integrators/cvode_block_solver.hpp"
+#include "../../src/integrators/cvode/cvode_block_solver.hpp"
 #include "../../src/integrators/series_vector_field.hpp"
 #include "dynamics/harmonic_oscillator.hpp"
 #include "hamjet/dynamics/zonal_gravity.hpp"

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "../integration_clock.hpp"
+#include "../series_vector_field.hpp"
+#include "../step_ends.hpp"
+#include "../step_sequence.hpp"
 #include "cvode_block_solver.hpp"
 #include "cvode_vectors.hpp"
 #include "hamjet/error.hpp"
-#include "integration_clock.hpp"
-#include "series_vector_field.hpp"
-#include "step_ends.hpp"
-#include "step_sequence.hpp"
 
 namespace hamjet {
 namespace {
