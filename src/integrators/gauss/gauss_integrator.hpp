@@ -52,7 +52,7 @@ class GaussIntegrator {
         jet_(problem, settings.compensated_summation, end_map_.has_value()),
         control_(settings, stages_, jet_, controlled_order),
         nominal_(
-            *problem.system, settings, stages_, jet_, control_, end_slope_, at_.is_slope_known,
+            *problem.system, settings, stages_, jet_, control_, end_slope_,
             [this] { evaluate_end_slope(); }, statistics) {}
 
   /// Runs to the end of the duration and calls the observer after every step.
@@ -101,7 +101,7 @@ class GaussIntegrator {
 
  private:
   FlowJet<Real> finish() {
-    if (problem_.duration != 0 && !at_.is_slope_known) evaluate_end_slope();
+    if (problem_.duration != 0 && !end_slope_.is_evaluated) evaluate_end_slope();
     statistics_.series_work = settings_.stages * stages_.evaluator().work();
     statistics_.wall_seconds = clock_.seconds();
     require_finite(jet_.value(), at_.time, "Gauss");
@@ -153,14 +153,14 @@ class GaussIntegrator {
     if (!problem_.system->vector_field.depends_on_time()) return;
     std::vector<Real> beside;
     evaluate_slope(beside, now() * (1 + 2 * std::numeric_limits<Real>::epsilon()));
-    at_.time_noise =
-        std::max(at_.time_noise, static_cast<double>(stages_.template largest_component<Real>(
-                                     [&](std::size_t c) { return beside[c] - end_slope_[c]; })));
+    at_.time_noise = std::max(at_.time_noise,
+                              static_cast<double>(stages_.template largest_component<Real>(
+                                  [&](std::size_t c) { return beside[c] - end_slope_.value[c]; })));
   }
 
   void evaluate_end_slope() {
-    evaluate_slope(end_slope_, now());
-    at_.is_slope_known = true;
+    evaluate_slope(end_slope_.value, now());
+    end_slope_.is_evaluated = true;
   }
 
   /// The control of steps needs the slopes at the end of each. Fixed steps take those of the
@@ -168,8 +168,10 @@ class GaussIntegrator {
   /// point an evaluation of a field takes nearly as long as at all stages.
   void find_end_slope() {
     if (!settings_.step || settings_.estimates_step_error) return evaluate_end_slope();
-    for (std::size_t c = 0; c < end_slope_.size(); ++c) end_slope_[c] = stages_.slope_at_end(c);
-    at_.is_slope_known = false;
+    for (std::size_t c = 0; c < end_slope_.value.size(); ++c) {
+      end_slope_.value[c] = stages_.slope_at_end(c);
+    }
+    end_slope_.is_evaluated = false;
   }
 
   /// Evaluates the slopes g at the constant terms of the state, at a time.
@@ -226,14 +228,14 @@ class GaussIntegrator {
           clock_.exclude(
               [&] {
                 statistics_.record_step_error(
-                    control_.error_estimate(step_, end_slope_, at_.time_noise));
+                    control_.error_estimate(step_, end_slope_.value, at_.time_noise));
               },
               statistics_.step_error_seconds);
         }
         if (!solve_degrees(mark)) fail_fixed_step(h);
         break;
       }
-      double error = is_solved ? control_.error_estimate(step_, end_slope_, at_.time_noise)
+      double error = is_solved ? control_.error_estimate(step_, end_slope_.value, at_.time_noise)
                                : std::numeric_limits<double>::infinity();
       if (error <= largest_excess() * *settings_.tolerance) {
         if (!solve_degrees(mark)) fail_fixed_step(h);
@@ -386,7 +388,7 @@ class GaussIntegrator {
   GaussStepping<Real> at_;
   Real step_ = 0;                           ///< the step that is being tried
   std::optional<KnownSlopes<Real>> guess_;  ///< the slopes from which the next trial is guessed
-  std::vector<Real> end_slope_;  ///< slope at the end of the last step, where the next one starts
+  EndSlope<Real> end_slope_;  ///< at the end of the last step, where the next one starts
 };
 
 }  // namespace hamjet

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../summed_jet.hpp"
+#include "gauss_checkpoint.hpp"
 #include "gauss_step_control.hpp"
 #include "hamjet/integrators/gauss_collocation.hpp"
 #include "stage_slopes.hpp"
@@ -29,21 +30,18 @@ class NominalStages {
  public:
   using P = Pack<Real, Lanes>;
 
-  /// `start_slope` must hold the slopes at the start of the step that is being solved, or those at
-  /// the end of the last step's polynomial if `is_slope_known` does not hold; `evaluate_slope`
-  /// replaces these by the slopes.
+  /// `start_slope` must hold the slopes at the start of the step that is being solved, which
+  /// `evaluate_slope` evaluates there.
   NominalStages(const DynamicalSystem& system, const GaussSettings& settings,
                 StageSlopes<Real, Lanes>& stages, const SummedJet<Real, Lanes>& jet,
-                const GaussStepControl<Real, Lanes>& control, const std::vector<Real>& start_slope,
-                const bool& is_slope_known, std::function<void()> evaluate_slope,
-                IntegrationStatistics& statistics)
+                const GaussStepControl<Real, Lanes>& control, const EndSlope<Real>& start_slope,
+                std::function<void()> evaluate_slope, IntegrationStatistics& statistics)
       : is_linear_(system.vector_field.is_linear_system()),
         settings_(settings),
         stages_(stages),
         jet_(jet),
         control_(control),
         start_slope_(start_slope),
-        is_slope_known_(is_slope_known),
         evaluate_slope_(std::move(evaluate_slope)),
         statistics_(statistics) {}
 
@@ -68,8 +66,9 @@ class NominalStages {
   }
 
   void set_constant_slopes() {
-    if (!is_slope_known_) evaluate_slope_();
-    for (std::size_t c = 0; c < start_slope_.size(); ++c) stages_.slopes()[c] = P(start_slope_[c]);
+    if (!start_slope_.is_evaluated) evaluate_slope_();
+    for (std::size_t c = 0; c < start_slope_.value.size(); ++c)
+      stages_.slopes()[c] = P(start_slope_.value[c]);
   }
 
   /// Newton's method can converge to a detached root of the stage equations, whose map is
@@ -77,12 +76,12 @@ class NominalStages {
   /// the step. The equations of a linear system have a single solution.
   bool is_suspicious(const Real& h) {
     if (is_linear_) return false;
-    double defect = control_.start_defect(start_slope_);
+    double defect = control_.start_defect(start_slope_.value);
     // Slopes that go on from the last step's need no evaluation to be told from those of another
     // root.
-    if (!is_slope_known_ && !(defect <= continuous * stages_.largest_slope())) {
+    if (!start_slope_.is_evaluated && !(defect <= continuous * stages_.largest_slope())) {
       evaluate_slope_();
-      defect = control_.start_defect(start_slope_);
+      defect = control_.start_defect(start_slope_.value);
     }
     if (defect > 0.5 * stages_.largest_slope() + 2 * expected_change()) return true;
     // Controlled steps are short, and their error estimate would show a wrong root.
@@ -97,7 +96,7 @@ class NominalStages {
     return stages_.largest_gradient() * stages_.displacement(jet_.start());
   }
 
-  double reach(const Real& h) { return step_reach(stages_, start_slope_, jet_.start(), h); }
+  double reach(const Real& h) { return step_reach(stages_, start_slope_.value, jet_.start(), h); }
 
   /// Follows the solution from a tiny step to the full one. Where neighbouring solutions differ
   /// much, the path is refined. A path that ends (in a fold) has no continuation, however far it is
@@ -137,8 +136,7 @@ class NominalStages {
   StageSlopes<Real, Lanes>& stages_;
   const SummedJet<Real, Lanes>& jet_;
   const GaussStepControl<Real, Lanes>& control_;
-  const std::vector<Real>& start_slope_;
-  const bool& is_slope_known_;
+  const EndSlope<Real>& start_slope_;
   std::function<void()> evaluate_slope_;
   IntegrationStatistics& statistics_;
 };
