@@ -186,6 +186,13 @@ std::vector<std::size_t> all_outputs(const OperationList& list) {
   return result;
 }
 
+std::vector<Expression> outputs_of(const OperationList& list,
+                                   const std::vector<Expression>& values) {
+  std::vector<Expression> outputs;
+  for (const std::size_t place : list.outputs()) outputs.push_back(values[place]);
+  return outputs;
+}
+
 }  // namespace
 
 std::vector<Expression> replay(const OperationList& list, std::span<const Expression> inputs) {
@@ -196,10 +203,7 @@ std::vector<Expression> replay(const OperationList& list, std::span<const Expres
 
 std::vector<Expression> recorded_outputs(const OperationList& list,
                                          std::span<const Expression> inputs) {
-  const std::vector<Expression> values = replay(list, inputs);
-  std::vector<Expression> outputs;
-  for (const std::size_t place : list.outputs()) outputs.push_back(values[place]);
-  return outputs;
+  return outputs_of(list, replay(list, inputs));
 }
 
 OperationList gradient(const OperationList& list) {
@@ -311,10 +315,7 @@ OperationList about_time(const OperationList& list, const Extended& time, int de
     };
     std::vector<Expression> inputs(variables.begin(), variables.end() - 1);
     if (list.has_time()) inputs.push_back(time + later);
-    const std::vector<Expression> values = replay_with(list, inputs, polynomial);
-    std::vector<Expression> outputs;
-    for (const std::size_t place : list.outputs()) outputs.push_back(values[place]);
-    return outputs;
+    return outputs_of(list, replay_with(list, inputs, polynomial));
   });
 }
 

@@ -12,6 +12,7 @@
 #include "formation/assignment_tables.hpp"
 #include "formation/deputy_motion_report.hpp"
 #include "formation/transfer_tables.hpp"
+#include "formation/validity_table.hpp"
 #include "study_description.hpp"
 #include "uncertainty/moments_table.hpp"
 
@@ -37,6 +38,14 @@ std::vector<TableView> declared_motion() {
   motion.scene.deputy.emplace();
   motion.points.push_back({0, {}, {0, 0}, 0});
   return deputy_motion_tables(motion);
+}
+
+std::vector<TableView> declared_validity() {
+  ValidityResult result;
+  result.scene = declaring_scene();
+  result.scene.validity.emplace();
+  result.domains.emplace();
+  return validity_tables(result);
 }
 
 std::vector<TableView> declared_assignment() {

@@ -15,6 +15,7 @@ Scene declaring_scene();
 
 std::vector<TableView> declared_motion();
 std::vector<TableView> declared_transfer();
+std::vector<TableView> declared_validity();
 std::vector<TableView> declared_uncertainty();
 std::vector<TableView> declared_assignment();
 std::vector<TableView> declared_event();

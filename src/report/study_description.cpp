@@ -77,14 +77,6 @@ std::vector<TableView> declared() {
   return tables_without_rows(tables, member);
 }
 
-std::vector<TableView> declared_validity() {
-  ValidityResult result;
-  result.scene = declaring_scene();
-  result.scene.validity.emplace();
-  result.domains.emplace();
-  return validity_tables(result);
-}
-
 bool is_zero(const RelativeState& state) {
   return state.position_m.isZero(0) && state.velocity_m_s.isZero(0);
 }

@@ -103,13 +103,9 @@ double EncounterTrajectories::period(std::size_t craft) const {
   return small_circle_period(std::hypot(r[0], r[1], r[2]));
 }
 
-double EncounterTrajectories::distance_from_centre(std::size_t craft, double time) const {
-  const FlowJet<double> now = jet(craft, time);
-  return std::hypot(now[0][0], now[1][0], now[2][0]);
-}
-
 double EncounterTrajectories::local_period(std::size_t craft, double time) const {
-  return small_circle_period(distance_from_centre(craft, time));
+  const FlowJet<double> now = jet(craft, time);
+  return small_circle_period(std::hypot(now[0][0], now[1][0], now[2][0]));
 }
 
 double EncounterTrajectories::second_order(const std::array<FlowJet<double>, 2>& jets,

@@ -44,7 +44,6 @@ class EncounterTrajectories {
   double period(std::size_t craft) const;
   /// The period of the small circle through the spacecraft's position at a time.
   double local_period(std::size_t craft, double time) const;
-  double distance_from_centre(std::size_t craft, double time) const;
   /// A bound, by the norms of coefficients, of what the second order adds to the relative position,
   /// for deviations of this many standard deviations. The jets must have order 2 at least.
   double second_order(const std::array<FlowJet<double>, 2>& jets, double deviations) const;

@@ -24,9 +24,10 @@ inline ValidityResult told_validity() {
   result.points[1].time = 2.5;
   result.scene.validity->tolerance_m = 3;
   result.scene.validity->semi_axes = {1, 0.5, 0.25};
-  result.domains = {4321, 987, 41, 81, "vT", 5, 0.4375};
+  result.domains = {4321, 987, 81, "vT", 5, 0.4375};
   result.domains->parts = {{{{1, 2, 3}, {4, 5, 6}}, 7, 0.25},
                            {{{71, 72, 73}, {74, 75, 76}}, 19, 0.4375}};
+  result.domains->parts.resize(41);
   return result;
 }
 

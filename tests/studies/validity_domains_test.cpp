@@ -54,24 +54,24 @@ TEST(ValidityDomains, GrowWithTheSeparationBeyondTheReach) {
     EXPECT_LE(result.domains->miss_m, 1);
     EXPECT_EQ(result.domains->not_right, 0U);
     if (times < 1) {
-      EXPECT_EQ(result.domains->count, 1U);
+      EXPECT_EQ(result.domains->count(), 1U);
       EXPECT_EQ(result.domains->split_across, "");
     } else {
-      EXPECT_GT(result.domains->count, fewer);
+      EXPECT_GT(result.domains->count(), fewer);
       EXPECT_NE(result.domains->split_across, "");
     }
-    fewer = result.domains->count;
+    fewer = result.domains->count();
   }
 }
 
 TEST(ValidityDomains, LimitIsToldAndFlowBoxesTakeOne) {
   const std::string far = "separation_m = 15e3\nmost_domains = 3\n";
   const ValidityResult limited = validity_of(far);
-  EXPECT_EQ(limited.domains->count, 3U);
+  EXPECT_EQ(limited.domains->count(), 3U);
   EXPECT_GT(limited.domains->not_right, 0U);
   EXPECT_GT(limited.domains->miss_m, 1);
   const ValidityResult boxes = validity_of(far, "coordinates = \"flow-box\"\n");
-  EXPECT_EQ(boxes.domains->count, 1U);
+  EXPECT_EQ(boxes.domains->count(), 1U);
   EXPECT_EQ(boxes.domains->not_right, 0U);
 }
 

@@ -59,14 +59,15 @@ struct ValidityDomain {
 /// The domains into which a set of deputies is split until the polynomials about each one's centre
 /// are right to the tolerance at the last time.
 struct ValidityDomains {
-  double separation_m = 0;   ///< the largest semi-axis of the set
-  std::size_t deputies = 0;  ///< of the set, that were flown
-  std::size_t count = 0;
+  double separation_m = 0;    ///< the largest semi-axis of the set
+  std::size_t deputies = 0;   ///< of the set, that were flown
   std::size_t maps = 0;       ///< maps that were integrated, those of domains that were split too
   std::string split_across;   ///< coordinate across which most were split; empty for one domain
   std::size_t not_right = 0;  ///< deputies beyond the tolerance, if the limit on domains was met
   double miss_m = 0;          ///< the largest flown miss
   std::vector<ValidityDomain> parts = {};
+
+  std::size_t count() const { return parts.size(); }
 };
 
 /// All results of the study of table `[validity]`.

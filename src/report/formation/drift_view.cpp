@@ -44,7 +44,7 @@ std::string drift_text(const Scene& scene, const std::optional<RelativeDrift>& d
   const double per_revolution = std::abs(drift->per_revolution_m);
   const double held = std::max(drift->floor_m, held_share * state.position_m.norm());
   // Air and light that act on one alone change the drift from revolution to revolution.
-  const bool is_unlike = !differing_parameters(scene).empty();
+  const bool is_unlike = !is_like_chief(scene);
   if (per_revolution <= held && !is_unlike) {
     return fmt::format("Left to itself{} it stays there: it drifts by {} a revolution.", where,
                        drift->is_none() ? "less than " + length_text(drift->floor_m)

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "../../formats/relative_frame_text.hpp"
 #include "../../store/json_text.hpp"
 #include "../../store/json_values.hpp"
@@ -129,7 +131,7 @@ TableView validity_table(const ValidityResult& result) {
   table.add_scalar("flights", "", "the number of deputies that were flown with the full equations",
                    result.flights);
   const auto of_domains = [&](auto member) {
-    return result.domains ? std::optional((*result.domains).*member) : std::nullopt;
+    return result.domains ? std::optional(std::invoke(member, *result.domains)) : std::nullopt;
   };
   using Domains = ValidityDomains;
   table.add_scalar("domains", "",

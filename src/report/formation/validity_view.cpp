@@ -33,7 +33,7 @@ std::string domains_text(const ValidityResult& result) {
   const std::string set = fmt::format("{} within {}", counted(domains.deputies, "deputy"),
                                       length_text(domains.separation_m));
   std::string text = fmt::format(" In order {} {} take {}", result.scene.order, set,
-                                 counted(domains.count, "domain"));
+                                 counted(domains.count(), "domain"));
   if (!domains.split_across.empty()) {
     text += fmt::format(", split most across {}", domains.split_across);
   }

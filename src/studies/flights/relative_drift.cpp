@@ -129,9 +129,7 @@ std::optional<RelativeDrift> relative_drift(const Scene& scene, const std::vecto
     drift.floor_m = rounding * length_m;
     drift.period_difference_s = difference * units.time_s;
     // No velocity holds a deputy that air or light keeps moving away.
-    const bool is_alike =
-        std::all_of(deviation.begin() + 6, deviation.end(), [](double d) { return d == 0; });
-    if (finds_holding && is_alike) {
+    if (finds_holding && is_like_chief(scene)) {
       if (const auto change = holding_change(meridian, deputy, *of_chief)) {
         drift.holding_change_m_s = ChiefFrame(chief, units, frame).velocity_change_m_s(*change);
       }

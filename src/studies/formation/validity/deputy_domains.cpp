@@ -58,7 +58,6 @@ class SplitValidity {
     ValidityDomains result;
     result.separation_m = *scene_.validity->separation_m;
     result.deputies = points_.size();
-    result.count = split.domains.size();
     result.maps = split.maps_made;
     const auto most = std::max_element(split.splits.begin(), split.splits.end());
     if (*most > 0) {
